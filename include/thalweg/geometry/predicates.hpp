@@ -1,0 +1,91 @@
+#pragma once
+
+/// Exact predicates on double coordinates, and the one tie rule for cocircular points.
+///
+/// Laws: (1) every answer is that of exact real arithmetic on the given doubles; (2) `in_circle_perturbed` is
+/// the answer for symbolically perturbed, lifted points, so it never ties for four distinct points of which
+/// three are not collinear; (3) no answer depends on the machine or on compiler flags that respect IEEE 754.
+/// Pre (all): coordinates are finite and less than 1e100 in magnitude.
+
+#include <thalweg/geometry/point.hpp>
+
+#include <cmath>
+
+namespace thalweg {
+
+namespace detail {
+int orientation_exact(Point2 a, Point2 b, Point2 c);
+int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d);
+int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d);
+}  // namespace detail
+
+/// +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if collinear.
+/// Error bounds: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997, section 4 (stage A).
+inline int orientation(Point2 a, Point2 b, Point2 c) {
+  constexpr double kEpsilon = 0x1p-53;
+  constexpr double kBound = (3 + 16 * kEpsilon) * kEpsilon;
+  constexpr double kNoUnderflow = 1e-280;
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  const double determinant = left - right;
+  const double magnitude = std::abs(left) + std::abs(right);
+  const double bound = kBound * magnitude;
+  if (magnitude > kNoUnderflow) {
+    if (determinant > bound) return 1;
+    if (-determinant > bound) return -1;
+  }
+  return detail::orientation_exact(a, b, c);
+}
+
+/// +1 if d lies inside the circle through a, b, c, -1 if outside, 0 if on it.
+/// Pre: a, b, c counter-clockwise.
+inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
+  constexpr double kEpsilon = 0x1p-53;
+  constexpr double kBound = (10 + 96 * kEpsilon) * kEpsilon;
+  constexpr double kNoUnderflow = 1e-250;
+  const double adx = a.x - d.x, ady = a.y - d.y;
+  const double bdx = b.x - d.x, bdy = b.y - d.y;
+  const double cdx = c.x - d.x, cdy = c.y - d.y;
+  const double bc = bdx * cdy, cb = cdx * bdy;
+  const double ca = cdx * ady, ac = adx * cdy;
+  const double ab = adx * bdy, ba = bdx * ady;
+  const double a_lift = adx * adx + ady * ady;
+  const double b_lift = bdx * bdx + bdy * bdy;
+  const double c_lift = cdx * cdx + cdy * cdy;
+  const double determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
+  const double magnitude = (std::abs(bc) + std::abs(cb)) * a_lift + (std::abs(ca) + std::abs(ac)) * b_lift +
+                           (std::abs(ab) + std::abs(ba)) * c_lift;
+  const double bound = kBound * magnitude;
+  if (magnitude > kNoUnderflow) {
+    if (determinant > bound) return 1;
+    if (-determinant > bound) return -1;
+  }
+  return detail::in_circle_exact(a, b, c, d);
+}
+
+/// True if d counts as inside the circle through a, b, c under the tie rule: of four cocircular points the
+/// lexicographically largest (x, then y) counts as outside the circle of the other three; the sign for any
+/// other follows by replacing that largest one by d. (CGAL's rule, so that order 0 is CGAL's triangulation.)
+/// Pre: a, b, c counter-clockwise; the four points distinct.
+inline bool in_circle_perturbed(Point2 a, Point2 b, Point2 c, Point2 d) {
+  const int sign = in_circle(a, b, c, d);
+  return sign != 0 ? sign > 0 : detail::break_cocircular_tie(a, b, c, d) > 0;
+}
+
+/// True if the closed segment pq has a point inside the open disc bounded by the circle through a, b, c; a
+/// segment that only touches the circle does not. Never perturbed. Pre: a, b, c counter-clockwise.
+bool segment_meets_open_disc(Point2 a, Point2 b, Point2 c, Point2 p, Point2 q);
+
+/// True if p lies on the closed segment ab. Pre: a != b.
+inline bool on_segment(Point2 a, Point2 b, Point2 p) {
+  if (p.x < std::min(a.x, b.x) || p.x > std::max(a.x, b.x)) return false;
+  if (p.y < std::min(a.y, b.y) || p.y > std::max(a.y, b.y)) return false;
+  return orientation(a, b, p) == 0;
+}
+
+/// True if the open segments ab and cd have exactly one point in common, which is an end of neither.
+inline bool cross_properly(Point2 a, Point2 b, Point2 c, Point2 d) {
+  return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+}
+
+}  // namespace thalweg

@@ -1,0 +1,112 @@
+#pragma once
+
+/// The triangulated irregular network: flat arrays, immutable once built.
+
+#include <thalweg/base/id.hpp>
+#include <thalweg/geometry/point.hpp>
+#include <thalweg/mesh/edge_kind.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+using Triangle = std::array<VertexId, 3>;
+
+/// An edge that every triangulation keeps, between two vertices, in either order.
+struct ConstraintEdge {
+  VertexId a;
+  VertexId b;
+  EdgeKind kind = EdgeKind::Breakline;
+};
+
+/// A triangulation of points with heights.
+///
+/// Frame: the plane of triangulation; the owner knows its unit and CRS. Triangles are counter-clockwise seen
+/// from above, start at their smallest vertex id, and are sorted, so equal input gives equal bytes.
+/// A vertex may be in no triangle. The surface need not be convex or connected; at a vertex several fans may meet.
+/// Halfedge h = 3 t + i runs from corner i of triangle t to corner (i + 1) % 3, triangle t to its left.
+/// Memory: about 110 bytes a vertex.
+class Tin {
+ public:
+  Tin() = default;
+  /// Takes vertices and triangles (counter-clockwise, any order and start) and the constraint edges.
+  /// Throws: Error{InvalidTin} if an id is out of range or repeated in a triangle, if two triangles lie on the
+  /// same side of an edge, or if a constraint edge is no edge of any triangle.
+  /// Complexity: linear for bounded vertex degree.
+  Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
+      std::span<const ConstraintEdge> constraints);
+
+  [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
+  [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+  [[nodiscard]] std::size_t halfedge_count() const { return 3 * triangles_.size(); }
+  /// Number of edges, each counted once. Complexity: constant.
+  [[nodiscard]] std::size_t edge_count() const { return edge_count_; }
+
+  [[nodiscard]] std::span<const Point2> points() const { return points_; }
+  [[nodiscard]] std::span<const double> heights() const { return heights_; }
+  [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+  [[nodiscard]] Point2 point(VertexId v) const { return points_[v.index()]; }
+  [[nodiscard]] double height(VertexId v) const { return heights_[v.index()]; }
+  [[nodiscard]] const Triangle& triangle(TriangleId t) const { return triangles_[t.index()]; }
+
+  [[nodiscard]] static HalfedgeId halfedge(TriangleId t, std::size_t side) {
+    return HalfedgeId{3 * t.index() + side};
+  }
+  [[nodiscard]] static TriangleId triangle_of(HalfedgeId h) { return TriangleId{h.index() / 3}; }
+  [[nodiscard]] static HalfedgeId next(HalfedgeId h) {
+    return HalfedgeId{h.index() % 3 == 2 ? h.index() - 2 : h.index() + 1};
+  }
+  [[nodiscard]] static HalfedgeId previous(HalfedgeId h) {
+    return HalfedgeId{h.index() % 3 == 0 ? h.index() + 2 : h.index() - 1};
+  }
+  [[nodiscard]] VertexId origin(HalfedgeId h) const { return triangles_[h.index() / 3][h.index() % 3]; }
+  [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(next(h)); }
+  /// The third corner of the halfedge's triangle.
+  [[nodiscard]] VertexId apex(HalfedgeId h) const { return origin(previous(h)); }
+  /// The halfedge on the other side; invalid on the rim.
+  [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h.index()]; }
+  [[nodiscard]] bool on_rim(HalfedgeId h) const { return !twins_[h.index()].valid(); }
+  [[nodiscard]] EdgeKind kind(HalfedgeId h) const { return kinds_[h.index()]; }
+  [[nodiscard]] bool constrained(HalfedgeId h) const { return kinds_[h.index()] != EdgeKind::None; }
+  /// True for the one halfedge that stands for its edge (the lower of the two).
+  [[nodiscard]] bool represents_edge(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
+  /// All halfedges that start at v, in no promised order.
+  [[nodiscard]] std::span<const HalfedgeId> outgoing(VertexId v) const {
+    return std::span(outgoing_).subspan(first_outgoing_[v.index()],
+                                        first_outgoing_[v.index() + 1] - first_outgoing_[v.index()]);
+  }
+  /// The halfedge from a to b, or an invalid id. Complexity: the degree of a.
+  [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
+  /// For each vertex: true if it lies on the rim, or in no triangle. Complexity: linear.
+  [[nodiscard]] std::vector<bool> rim_vertices() const;
+  /// The constraint edges, a < b, sorted. Complexity: linear.
+  [[nodiscard]] std::vector<ConstraintEdge> constraint_edges() const;
+
+ private:
+  void sort_triangles();
+  void link_halfedges();
+  void mark_constraints(std::span<const ConstraintEdge> constraints);
+
+  std::vector<Point2> points_;
+  std::vector<double> heights_;
+  std::vector<Triangle> triangles_;
+  std::vector<HalfedgeId> twins_;
+  std::vector<EdgeKind> kinds_;
+  std::vector<std::uint32_t> first_outgoing_ = {0};
+  std::vector<HalfedgeId> outgoing_;
+  std::size_t edge_count_ = 0;
+};
+
+/// The TIN in which each given interior, unconstrained edge is replaced by the other diagonal of its
+/// quadrilateral. Pre: no two of the edges bound the same triangle; each quadrilateral is strictly convex.
+/// Throws: Error{InvalidTin} if a given edge is on the rim or constrained. Complexity: as building a Tin.
+Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges);
+
+/// The TIN of the triangles for which `keep` is true; all vertices stay, with their ids. Constraint edges that
+/// lose their last triangle are dropped. Pre: keep.size() == tin.triangle_count().
+Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep);
+
+}  // namespace thalweg

@@ -1,0 +1,175 @@
+// The flat TIN.
+//
+// 1. Turn each triangle so that its smallest id comes first, bucket triangles by that id, sort each bucket.
+// 2. Bucket halfedges by origin; the twin of a -> b is looked up in the bucket of b, whose size is a degree.
+#include <thalweg/base/error.hpp>
+#include <thalweg/mesh/tin.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+std::string describe(const Triangle& t) {
+  return std::to_string(t[0].value()) + ", " + std::to_string(t[1].value()) + ", " +
+         std::to_string(t[2].value());
+}
+
+}  // namespace
+
+Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
+         std::span<const ConstraintEdge> constraints)
+    : points_(std::move(points)), heights_(std::move(heights)), triangles_(std::move(triangles)) {
+  if (heights_.size() != points_.size()) {
+    throw Error(ErrorCode::InvalidTin, "a TIN needs as many heights as points");
+  }
+  sort_triangles();
+  link_halfedges();
+  mark_constraints(constraints);
+}
+
+void Tin::sort_triangles() {
+  std::vector<std::uint32_t> start(points_.size() + 1, 0);
+  for (Triangle& t : triangles_) {
+    for (const VertexId v : t) {
+      if (v.index() >= points_.size()) {
+        throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " names a vertex that does not exist");
+      }
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+      throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " repeats a vertex");
+    }
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    ++start[t[0].index() + 1];
+  }
+  for (std::size_t v = 0; v < points_.size(); ++v) start[v + 1] += start[v];
+  std::vector<Triangle> sorted(triangles_.size());
+  std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
+  for (const Triangle& t : triangles_) sorted[fill[t[0].index()]++] = t;
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    std::sort(sorted.begin() + start[v], sorted.begin() + start[v + 1]);
+  }
+  triangles_ = std::move(sorted);
+}
+
+void Tin::link_halfedges() {
+  const std::size_t count = halfedge_count();
+  first_outgoing_.assign(points_.size() + 1, 0);
+  for (const Triangle& t : triangles_) {
+    for (const VertexId v : t) ++first_outgoing_[v.index() + 1];
+  }
+  for (std::size_t v = 0; v < points_.size(); ++v) first_outgoing_[v + 1] += first_outgoing_[v];
+  outgoing_.resize(count);
+  std::vector<std::uint32_t> fill(first_outgoing_.begin(), first_outgoing_.end() - 1);
+  for (std::size_t h = 0; h < count; ++h) outgoing_[fill[origin(HalfedgeId{h}).index()]++] = HalfedgeId{h};
+
+  twins_.assign(count, HalfedgeId{});
+  std::size_t rim = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const HalfedgeId h{i};
+    const VertexId from = origin(h);
+    const VertexId to = target(h);
+    std::size_t same = 0;
+    for (const HalfedgeId other : outgoing(from)) same += target(other) == to ? 1 : 0;
+    if (same > 1) {
+      throw Error(ErrorCode::InvalidTin, "two triangles lie on the same side of edge " +
+                                             std::to_string(from.value()) + ", " + std::to_string(to.value()));
+    }
+    for (const HalfedgeId other : outgoing(to)) {
+      if (target(other) == from) twins_[i] = other;
+    }
+    rim += twins_[i].valid() ? 0 : 1;
+  }
+  edge_count_ = (count + rim) / 2;
+}
+
+void Tin::mark_constraints(std::span<const ConstraintEdge> constraints) {
+  kinds_.assign(halfedge_count(), EdgeKind::None);
+  for (const ConstraintEdge& edge : constraints) {
+    bool found = false;
+    for (const auto& [from, to] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
+      const HalfedgeId h = from.index() < points_.size() ? find_halfedge(from, to) : HalfedgeId{};
+      if (!h.valid()) continue;
+      kinds_[h.index()] = kinds_[h.index()] | edge.kind;
+      found = true;
+    }
+    if (!found) {
+      throw Error(ErrorCode::InvalidTin, "constraint edge " + std::to_string(edge.a.value()) + ", " +
+                                             std::to_string(edge.b.value()) + " is no edge of a triangle");
+    }
+  }
+}
+
+HalfedgeId Tin::find_halfedge(VertexId a, VertexId b) const {
+  for (const HalfedgeId h : outgoing(a)) {
+    if (target(h) == b) return h;
+  }
+  return HalfedgeId{};
+}
+
+std::vector<bool> Tin::rim_vertices() const {
+  std::vector<bool> rim(vertex_count(), false);
+  for (std::size_t v = 0; v < vertex_count(); ++v) rim[v] = outgoing(VertexId{v}).empty();
+  for (std::size_t i = 0; i < halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (!on_rim(h)) continue;
+    rim[origin(h).index()] = true;
+    rim[target(h).index()] = true;
+  }
+  return rim;
+}
+
+std::vector<ConstraintEdge> Tin::constraint_edges() const {
+  std::vector<ConstraintEdge> edges;
+  for (std::size_t i = 0; i < halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (!constrained(h) || !represents_edge(h)) continue;
+    const auto [low, high] = std::minmax(origin(h), target(h));
+    edges.push_back({low, high, kind(h)});
+  }
+  std::sort(edges.begin(), edges.end(), [](const ConstraintEdge& a, const ConstraintEdge& b) {
+    return std::pair(a.a, a.b) < std::pair(b.a, b.b);
+  });
+  return edges;
+}
+
+Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges) {
+  std::vector<Triangle> triangles(tin.triangles().begin(), tin.triangles().end());
+  for (const HalfedgeId h : edges) {
+    const HalfedgeId other = tin.twin(h);
+    if (!other.valid() || tin.constrained(h)) {
+      throw Error(ErrorCode::InvalidTin, "edge " + std::to_string(tin.origin(h).value()) + ", " +
+                                             std::to_string(tin.target(h).value()) +
+                                             " cannot be flipped: it is on the rim or constrained");
+    }
+    triangles[Tin::triangle_of(h).index()] = {tin.apex(h), tin.origin(h), tin.apex(other)};
+    triangles[Tin::triangle_of(other).index()] = {tin.apex(other), tin.target(h), tin.apex(h)};
+  }
+  const std::vector<ConstraintEdge> constraints = tin.constraint_edges();
+  return {{tin.points().begin(), tin.points().end()},
+          {tin.heights().begin(), tin.heights().end()},
+          std::move(triangles),
+          constraints};
+}
+
+Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep) {
+  std::vector<Triangle> triangles;
+  std::vector<ConstraintEdge> constraints;
+  for (std::size_t t = 0; t < tin.triangle_count(); ++t) {
+    if (!keep[t]) continue;
+    triangles.push_back(tin.triangle(TriangleId{t}));
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(TriangleId{t}, side);
+      if (tin.constrained(h)) constraints.push_back({tin.origin(h), tin.target(h), tin.kind(h)});
+    }
+  }
+  return {{tin.points().begin(), tin.points().end()},
+          {tin.heights().begin(), tin.heights().end()},
+          std::move(triangles),
+          constraints};
+}
+
+}  // namespace thalweg
