@@ -6,7 +6,8 @@
 
 namespace thalweg {
 
-/// Bits as written to files: 1 breakline, 2 ridge, 4 valley, 8 boundary, 16 hole, 32 lake. None: no constraint.
+/// Bits as written to files: 1 breakline, 2 ridge, 4 valley, 8 boundary, 16 hole, 32 lake. None: no
+/// constraint.
 enum class EdgeKind : std::uint8_t {
   None = 0,
   Breakline = 1,
@@ -23,7 +24,11 @@ constexpr EdgeKind operator|(EdgeKind a, EdgeKind b) {
 constexpr EdgeKind operator&(EdgeKind a, EdgeKind b) {
   return static_cast<EdgeKind>(static_cast<std::uint8_t>(a) & static_cast<std::uint8_t>(b));
 }
-constexpr bool has(EdgeKind kind, EdgeKind bit) { return (kind & bit) != EdgeKind::None; }
-constexpr bool is_constraint(EdgeKind kind) { return kind != EdgeKind::None; }
+constexpr bool has(EdgeKind kind, EdgeKind bit) {
+  return (kind & bit) != EdgeKind::None;
+}
+constexpr bool is_constraint(EdgeKind kind) {
+  return kind != EdgeKind::None;
+}
 
 }  // namespace thalweg

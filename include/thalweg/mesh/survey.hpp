@@ -1,6 +1,7 @@
 #pragma once
 
-/// What was measured and drawn: points, lines and areas with their provenance, before anything is triangulated.
+/// What was measured and drawn: points, lines and areas with their provenance, before anything is
+/// triangulated.
 
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/mesh/edge_kind.hpp>
@@ -42,10 +43,10 @@ struct SurveyLine {
 /// One place where sources disagree about a height, and what was used.
 struct Conflict {
   enum class Kind : std::uint8_t {
-    DuplicatePoint,   ///< points with the same position
-    PointOnLine,      ///< a point at a vertex or on an edge of a line with heights
-    LineVertex,       ///< two lines share a vertex position
-    Crossing,         ///< two lines cross, touch or overlap
+    DuplicatePoint,  ///< points with the same position
+    PointOnLine,     ///< a point at a vertex or on an edge of a line with heights
+    LineVertex,      ///< two lines share a vertex position
+    Crossing,        ///< two lines cross, touch or overlap
   };
   Kind kind = Kind::DuplicatePoint;
   Point2 xy;

@@ -22,20 +22,33 @@ struct ConstraintEdge {
   EdgeKind kind = EdgeKind::Breakline;
 };
 
+/// A TIN as plain arrays that others own, sound or not; what is not at hand stays empty.
+struct TinArrays {
+  std::span<const Point2> points;
+  std::span<const double> heights;
+  std::span<const Triangle> triangles;
+  std::span<const ConstraintEdge> constraints;
+  std::span<const HalfedgeId> twins;  ///< for each halfedge
+  std::span<const EdgeKind> kinds;    ///< for each halfedge
+  std::span<const std::uint32_t>
+      first_outgoing;  ///< for each vertex where its part of `outgoing` starts; then its end
+  std::span<const HalfedgeId> outgoing;
+};
+
 /// A triangulation of points with heights.
 ///
 /// Frame: the plane of triangulation; the owner knows its unit and CRS. Triangles are counter-clockwise seen
 /// from above, start at their smallest vertex id, and are sorted, so equal input gives equal bytes.
-/// A vertex may be in no triangle. The surface need not be convex or connected; at a vertex several fans may meet.
-/// Halfedge h = 3 t + i runs from corner i of triangle t to corner (i + 1) % 3, triangle t to its left.
+/// A vertex may be in no triangle. The surface need not be convex or connected; at a vertex several fans may
+/// meet. Halfedge h = 3 t + i runs from corner i of triangle t to corner (i + 1) % 3, triangle t to its left.
 /// Memory: about 110 bytes a vertex.
 class Tin {
  public:
   Tin() = default;
   /// Takes vertices and triangles (counter-clockwise, any order and start) and the constraint edges.
-  /// Throws: Error{InvalidTin} if an id is out of range or repeated in a triangle, if two triangles lie on the
-  /// same side of an edge, or if a constraint edge is no edge of any triangle.
-  /// Complexity: linear for bounded vertex degree.
+  /// Throws: Error{InvalidTin} if an id is out of range or repeated in a triangle, if two triangles lie on
+  /// the same side of an edge, or if a constraint edge is no edge of any triangle. Complexity: linear for
+  /// bounded vertex degree.
   Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
       std::span<const ConstraintEdge> constraints);
 
@@ -82,6 +95,10 @@ class Tin {
   [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
   /// For each vertex: true if it lies on the rim, or in no triangle. Complexity: linear.
   [[nodiscard]] std::vector<bool> rim_vertices() const;
+  /// What the TIN is made of (without `constraints`: `kinds` says the same). Valid as long as the TIN.
+  [[nodiscard]] TinArrays arrays() const {
+    return {points_, heights_, triangles_, {}, twins_, kinds_, first_outgoing_, outgoing_};
+  }
   /// The constraint edges, a < b, sorted. Complexity: linear.
   [[nodiscard]] std::vector<ConstraintEdge> constraint_edges() const;
 
@@ -105,8 +122,8 @@ class Tin {
 /// Throws: Error{InvalidTin} if a given edge is on the rim or constrained. Complexity: as building a Tin.
 Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges);
 
-/// The TIN of the triangles for which `keep` is true; all vertices stay, with their ids. Constraint edges that
-/// lose their last triangle are dropped. Pre: keep.size() == tin.triangle_count().
+/// The TIN of the triangles for which `keep` is true; all vertices stay, with their ids. Constraint edges
+/// that lose their last triangle are dropped. Pre: keep.size() == tin.triangle_count().
 Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep);
 
 }  // namespace thalweg
