@@ -1,0 +1,115 @@
+// The table of TIN formats, and the checks of creation options against it.
+#include <thalweg/base/error.hpp>
+
+#include "io/tin_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+namespace thalweg {
+
+namespace {
+
+bool same_word(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::toupper(x) == std::toupper(y);
+  });
+}
+
+std::string_view key_of(std::string_view pair) { return pair.substr(0, pair.find('=')); }
+std::string_view values_of(std::string_view pair) { return pair.substr(pair.find('=') + 1); }
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> words;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    words.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return words;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::string list_options(const FormatInfo& format) {
+  std::string known;
+  for (const std::string& option : format.creation_options) known += (known.empty() ? "" : ", ") + option;
+  return known.empty() ? "it has none" : "known are " + known;
+}
+
+bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+
+bool recognises_ply(std::string_view head, const std::string&) {
+  return starts_with(head, "ply\n") || starts_with(head, "ply\r");
+}
+
+}  // namespace
+
+CreationOptions::CreationOptions(const std::vector<std::string>& pairs, const FormatInfo& format) {
+  for (const std::string& option : format.creation_options) {
+    options_.push_back({std::string(key_of(option)), std::string(values_of(option))});
+    // The default of a choice is its first value, that of a list the whole list.
+    options_.back().value = split(options_.back().value, '|').front();
+  }
+  for (const std::string& pair : pairs) {
+    const auto known = std::find_if(options_.begin(), options_.end(),
+                                    [&](const Option& option) { return same_word(option.key, key_of(pair)); });
+    if (pair.find('=') == std::string::npos || known == options_.end()) {
+      throw Error(ErrorCode::Usage, "'" + pair + "' is no creation option of " + format.name + "; " +
+                                        list_options(format) + " (--co KEY=VALUE)");
+    }
+    known->value = values_of(pair);
+    const std::string& offered =
+        format.creation_options[static_cast<std::size_t>(known - options_.begin())];
+    const bool choice = offered.find('|') != std::string::npos;
+    const std::vector<std::string> all = split(values_of(offered), choice ? '|' : ',');
+    for (const std::string& word : split(known->value, choice ? '|' : ',')) {
+      const auto same = [&](const std::string& value) { return same_word(value, word); };
+      if (std::none_of(all.begin(), all.end(), same)) {
+        throw Error(ErrorCode::Usage, "'" + word + "' is no value of the creation option " + known->key + " of " +
+                                          format.name + "; " + list_options(format));
+      }
+    }
+  }
+}
+
+const std::string& CreationOptions::value(std::string_view key) const {
+  return std::find_if(options_.begin(), options_.end(), [&](const Option& o) { return o.key == key; })->value;
+}
+
+bool CreationOptions::enabled(std::string_view key) const { return same_word(value(key), "YES"); }
+
+std::vector<std::string> CreationOptions::list(std::string_view key) const {
+  std::vector<std::string> words = split(value(key), ',');
+  for (std::string& word : words) {
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  }
+  return words;
+}
+
+std::span<const TinFormat> tin_format_table() {
+  static const std::vector<TinFormat> table = {
+      {{"PLY", "Polygon file format, binary little-endian", {".ply"}, false, true, {"EDGES=YES|NO"}},
+       TinFormat::Crs::InFile,
+       write_ply,
+       recognises_ply,
+       nullptr},
+  };
+  return table;
+}
+
+std::span<const FormatInfo> tin_formats() {
+  static const std::vector<FormatInfo> infos = [] {
+    std::vector<FormatInfo> list;
+    for (const TinFormat& format : tin_format_table()) list.push_back(format.info);
+    return list;
+  }();
+  return infos;
+}
+
+std::string sidecar_path(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".prj").string();
+}
+
+}  // namespace thalweg

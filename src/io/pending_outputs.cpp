@@ -1,0 +1,148 @@
+// Outputs that appear whole or not at all.
+//
+// 1. The temporary file lies in the target's own folder, so that the rename never crosses a file system and is atomic.
+// 2. Whether the folder can be written is asked by creating that file and removing it again: permission bits say
+//    nothing about read-only file systems, or to root.
+// 3. On commit: fsync every file, rename every file, fsync every folder (else a power cut may undo the rename).
+#include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace thalweg {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string describe_errno(int error) { return std::generic_category().message(error); }
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+// A name that no file of the folder has, proved by creating it.
+fs::path unused_path(const fs::path& target) {
+  static std::atomic<unsigned> counter{0};
+  const fs::path folder = folder_of(target);
+  while (true) {
+    const std::string name = ".thalweg-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) +
+                             target.extension().string();
+    const fs::path path = folder / name;
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      ::close(file);
+      ::unlink(path.c_str());
+      return path;
+    }
+    if (errno != EEXIST) {
+      throw Error(ErrorCode::WriteFailed, target.string() + ": the folder '" + folder.string() +
+                                              "' cannot be written (" + describe_errno(errno) +
+                                              "); choose another one or change its permissions");
+    }
+  }
+}
+
+void sync_to_device(const fs::path& path, const std::string& target) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool synced = file >= 0 && (::fsync(file) == 0 || errno == EINVAL || errno == EROFS);
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  if (!synced) {
+    throw Error(ErrorCode::WriteFailed, target + ": cannot be flushed to the device (" + describe_errno(error) +
+                                            "); nothing was left behind");
+  }
+}
+
+// What SQLite may leave beside a database when it is stopped.
+constexpr std::array<const char*, 4> kRemains = {"", "-journal", "-wal", "-shm"};
+
+}  // namespace
+
+PendingOutputs::~PendingOutputs() {
+  for (const Output& output : outputs_) {
+    if (output.written == output.target) continue;
+    for (const char* remains : kRemains) ::unlink((output.written + remains).c_str());
+  }
+}
+
+void PendingOutputs::check_new(const std::string& target) const {
+  const fs::path path = fs::weakly_canonical(target);
+  const bool known = std::any_of(outputs_.begin(), outputs_.end(),
+                                 [&](const Output& output) { return fs::weakly_canonical(output.target) == path; });
+  if (known) throw Error(ErrorCode::Usage, target + ": two outputs have this name; give each its own");
+}
+
+std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
+  if (target.empty()) throw Error(ErrorCode::Usage, "the name of an output is empty; give a path");
+  std::error_code ignored;
+  const fs::file_status status = fs::status(target, ignored);
+  if (fs::is_directory(status)) {
+    throw Error(ErrorCode::Usage, target + ": is a folder; give the name of a file in it");
+  }
+  if (fs::is_character_file(status) || fs::is_fifo(status)) {
+    outputs_.push_back({target, target});
+    return target;
+  }
+  const bool link = fs::is_symlink(fs::symlink_status(target, ignored));
+  const fs::path path = link ? fs::weakly_canonical(target) : fs::path(target);
+  const fs::path folder = folder_of(path);
+  if (!fs::is_directory(folder, ignored)) {
+    throw Error(ErrorCode::NotFound, target + ": there is no folder '" + folder.string() +
+                                         "'; create it first, or choose another place");
+  }
+  if (fs::exists(status) && mode == Overwrite::No) {
+    throw Error(ErrorCode::OutputExists,
+                target + ": exists already; choose another name or overwrite it with --overwrite");
+  }
+  check_new(target);
+  const std::string written = unused_path(path).string();
+  outputs_.push_back({path.string(), written});
+  return written;
+}
+
+void PendingOutputs::remove_stale(const std::string& target, Overwrite mode) {
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(target, ignored))) return;
+  if (mode == Overwrite::No) {
+    throw Error(ErrorCode::OutputExists, target + ": would be taken for a part of the output; move it away, choose "
+                                                  "another name, or remove it with --overwrite");
+  }
+  stale_.push_back(target);
+}
+
+void PendingOutputs::commit() {
+  for (const Output& output : outputs_) {
+    if (output.written == output.target) continue;
+    std::error_code ignored;
+    const fs::file_status old = fs::status(output.target, ignored);
+    if (fs::is_regular_file(old)) fs::permissions(output.written, old.permissions(), ignored);
+    sync_to_device(output.written, output.target);
+  }
+  for (const std::string& stale : stale_) ::unlink(stale.c_str());
+  for (Output& output : outputs_) {
+    if (output.written == output.target) continue;
+    if (::rename(output.written.c_str(), output.target.c_str()) != 0) {
+      throw Error(ErrorCode::WriteFailed,
+                  output.target + ": the finished file cannot be given its name (" + describe_errno(errno) + ")");
+    }
+    output.written = output.target;
+  }
+  for (const Output& output : outputs_) {
+    if (fs::is_regular_file(output.target)) sync_to_device(folder_of(output.target), output.target);
+  }
+  outputs_.clear();
+  stale_.clear();
+}
+
+}  // namespace thalweg

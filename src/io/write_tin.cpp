@@ -1,0 +1,74 @@
+// Choosing the writer of a TIN, and the CRS sidecar.
+//
+// A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a NAME.prj
+// that lies there already would be taken for its own: it has to go.
+#include <thalweg/base/error.hpp>
+
+#include "io/file_writer.hpp"
+#include "io/tin_format.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace thalweg {
+
+namespace {
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string list_formats() {
+  std::string list;
+  for (const TinFormat& format : tin_format_table()) {
+    if (format.write == nullptr) continue;
+    list += (list.empty() ? "" : ", ") + format.info.name + " (" + format.info.extensions.front() + ")";
+  }
+  return list;
+}
+
+const TinFormat& choose_format(const std::string& path, const std::string& name) {
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  for (const TinFormat& format : tin_format_table()) {
+    const std::vector<std::string>& extensions = format.info.extensions;
+    const bool same = name.empty()
+                          ? std::find(extensions.begin(), extensions.end(), extension) != extensions.end()
+                          : lower(format.info.name) == lower(name);
+    if (same && format.write != nullptr) return format;
+  }
+  if (!name.empty()) {
+    throw Error(ErrorCode::Usage, "'" + name + "' is no format that a TIN can be written in; known are " + list_formats());
+  }
+  throw Error(ErrorCode::Usage, path + ": " +
+                                    (extension.empty() ? "a name without an extension does not say"
+                                                       : "the extension '" + extension + "' does not name") +
+                                    " a format for a TIN; known are " + list_formats() + ", or name it with --of");
+}
+
+void check_sizes(const TinView& view) {
+  const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
+  const std::size_t vertices = view.tin.vertex_count();
+  if (!fits(view.written_xy.size(), vertices) || !fits(view.is_pit.size(), vertices) ||
+      !fits(view.vertex_source.size(), vertices) ||
+      !fits(view.triangle_orders.size(), view.tin.triangle_count())) {
+    throw Error(ErrorCode::Internal, "the attributes of a TIN to write do not fit its vertices and triangles");
+  }
+}
+
+}  // namespace
+
+void write_tin(const std::string& path, const TinView& view, const WriteOptions& options, PendingOutputs& pending,
+               Overwrite mode, Progress& progress) {
+  check_sizes(view);
+  const TinFormat& format = choose_format(path, options.format);
+  const CreationOptions creation(options.creation_options, format.info);
+  progress.start_phase("write " + format.info.name);
+  const std::string written = pending.add(path, mode);
+  format.write({written, path, view, creation, progress});
+  progress.advance(1);
+}
+
+}  // namespace thalweg
