@@ -1,4 +1,5 @@
-// Buffered writing over a plain descriptor: a short write is continued, anything else is an error with its reason.
+// Buffered writing over a plain descriptor: a short write is continued, anything else is an error with its
+// reason.
 #include "io/file_writer.hpp"
 
 #include <thalweg/base/error.hpp>

@@ -1,7 +1,7 @@
 // The table of TIN formats, and the checks of creation options against it.
-#include <thalweg/base/error.hpp>
-
 #include "io/tin_format.hpp"
+
+#include <thalweg/base/error.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,13 +13,16 @@ namespace thalweg {
 namespace {
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::toupper(x) == std::toupper(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
 }
 
-std::string_view key_of(std::string_view pair) { return pair.substr(0, pair.find('=')); }
-std::string_view values_of(std::string_view pair) { return pair.substr(pair.find('=') + 1); }
+std::string_view key_of(std::string_view pair) {
+  return pair.substr(0, pair.find('='));
+}
+std::string_view values_of(std::string_view pair) {
+  return pair.substr(pair.find('=') + 1);
+}
 
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> words;
@@ -37,7 +40,9 @@ std::string list_options(const FormatInfo& format) {
   return known.empty() ? "it has none" : "known are " + known;
 }
 
-bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+bool starts_with(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
 
 bool recognises_ply(std::string_view head, const std::string&) {
   return starts_with(head, "ply\n") || starts_with(head, "ply\r");
@@ -52,22 +57,22 @@ CreationOptions::CreationOptions(const std::vector<std::string>& pairs, const Fo
     options_.back().value = split(options_.back().value, '|').front();
   }
   for (const std::string& pair : pairs) {
-    const auto known = std::find_if(options_.begin(), options_.end(),
-                                    [&](const Option& option) { return same_word(option.key, key_of(pair)); });
+    const auto known = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
+      return same_word(option.key, key_of(pair));
+    });
     if (pair.find('=') == std::string::npos || known == options_.end()) {
       throw Error(ErrorCode::Usage, "'" + pair + "' is no creation option of " + format.name + "; " +
                                         list_options(format) + " (--co KEY=VALUE)");
     }
     known->value = values_of(pair);
-    const std::string& offered =
-        format.creation_options[static_cast<std::size_t>(known - options_.begin())];
+    const std::string& offered = format.creation_options[static_cast<std::size_t>(known - options_.begin())];
     const bool choice = offered.find('|') != std::string::npos;
     const std::vector<std::string> all = split(values_of(offered), choice ? '|' : ',');
     for (const std::string& word : split(known->value, choice ? '|' : ',')) {
       const auto same = [&](const std::string& value) { return same_word(value, word); };
       if (std::none_of(all.begin(), all.end(), same)) {
-        throw Error(ErrorCode::Usage, "'" + word + "' is no value of the creation option " + known->key + " of " +
-                                          format.name + "; " + list_options(format));
+        throw Error(ErrorCode::Usage, "'" + word + "' is no value of the creation option " + known->key +
+                                          " of " + format.name + "; " + list_options(format));
       }
     }
   }
@@ -77,7 +82,9 @@ const std::string& CreationOptions::value(std::string_view key) const {
   return std::find_if(options_.begin(), options_.end(), [&](const Option& o) { return o.key == key; })->value;
 }
 
-bool CreationOptions::enabled(std::string_view key) const { return same_word(value(key), "YES"); }
+bool CreationOptions::enabled(std::string_view key) const {
+  return same_word(value(key), "YES");
+}
 
 std::vector<std::string> CreationOptions::list(std::string_view key) const {
   std::vector<std::string> words = split(value(key), ',');

@@ -1,9 +1,12 @@
 // Outputs that appear whole or not at all.
 //
-// 1. The temporary file lies in the target's own folder, so that the rename never crosses a file system and is atomic.
-// 2. Whether the folder can be written is asked by creating that file and removing it again: permission bits say
+// 1. The temporary file lies in the target's own folder, so that the rename never crosses a file system and
+// is atomic.
+// 2. Whether the folder can be written is asked by creating that file and removing it again: permission bits
+// say
 //    nothing about read-only file systems, or to root.
-// 3. On commit: fsync every file, rename every file, fsync every folder (else a power cut may undo the rename).
+// 3. On commit: fsync every file, rename every file, fsync every folder (else a power cut may undo the
+// rename).
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/pending_outputs.hpp>
 
@@ -25,7 +28,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string describe_errno(int error) { return std::generic_category().message(error); }
+std::string describe_errno(int error) {
+  return std::generic_category().message(error);
+}
 
 fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
@@ -59,8 +64,8 @@ void sync_to_device(const fs::path& path, const std::string& target) {
   const int error = errno;
   if (file >= 0) ::close(file);
   if (!synced) {
-    throw Error(ErrorCode::WriteFailed, target + ": cannot be flushed to the device (" + describe_errno(error) +
-                                            "); nothing was left behind");
+    throw Error(ErrorCode::WriteFailed, target + ": cannot be flushed to the device (" +
+                                            describe_errno(error) + "); nothing was left behind");
   }
 }
 
@@ -78,8 +83,9 @@ PendingOutputs::~PendingOutputs() {
 
 void PendingOutputs::check_new(const std::string& target) const {
   const fs::path path = fs::weakly_canonical(target);
-  const bool known = std::any_of(outputs_.begin(), outputs_.end(),
-                                 [&](const Output& output) { return fs::weakly_canonical(output.target) == path; });
+  const bool known = std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& output) {
+    return fs::weakly_canonical(output.target) == path;
+  });
   if (known) throw Error(ErrorCode::Usage, target + ": two outputs have this name; give each its own");
 }
 
@@ -115,8 +121,10 @@ void PendingOutputs::remove_stale(const std::string& target, Overwrite mode) {
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(target, ignored))) return;
   if (mode == Overwrite::No) {
-    throw Error(ErrorCode::OutputExists, target + ": would be taken for a part of the output; move it away, choose "
-                                                  "another name, or remove it with --overwrite");
+    throw Error(ErrorCode::OutputExists,
+                target +
+                    ": would be taken for a part of the output; move it away, choose "
+                    "another name, or remove it with --overwrite");
   }
   stale_.push_back(target);
 }
@@ -133,8 +141,8 @@ void PendingOutputs::commit() {
   for (Output& output : outputs_) {
     if (output.written == output.target) continue;
     if (::rename(output.written.c_str(), output.target.c_str()) != 0) {
-      throw Error(ErrorCode::WriteFailed,
-                  output.target + ": the finished file cannot be given its name (" + describe_errno(errno) + ")");
+      throw Error(ErrorCode::WriteFailed, output.target + ": the finished file cannot be given its name (" +
+                                              describe_errno(errno) + ")");
     }
     output.written = output.target;
   }

@@ -16,7 +16,8 @@ namespace thalweg {
 /// The creation options that a user gave, checked against those that the format declares.
 class CreationOptions {
  public:
-  /// Throws: Error{Usage} for a pair that is no KEY=VALUE, for an unknown key and for a value that is not offered.
+  /// Throws: Error{Usage} for a pair that is no KEY=VALUE, for an unknown key and for a value that is not
+  /// offered.
   CreationOptions(const std::vector<std::string>& pairs, const FormatInfo& format);
   [[nodiscard]] bool enabled(std::string_view key) const;
   /// The values of a list: "LAYERS=a,b". An empty list is not accepted.

@@ -1,5 +1,6 @@
-// PLY, binary little-endian, as QGIS (MDAL) reads it: elements vertex, face and edge only, the face list is called
-// vertex_indices, and the CRS is the comment "crs: ..." that MDAL hands on as an authority code or as WKT.
+// PLY, binary little-endian, as QGIS (MDAL) reads it: elements vertex, face and edge only, the face list is
+// called vertex_indices, and the CRS is the comment "crs: ..." that MDAL hands on as an authority code or as
+// WKT.
 #include "io/file_writer.hpp"
 #include "io/tin_format.hpp"
 
@@ -14,7 +15,8 @@ namespace {
 constexpr std::size_t kProgressStep = 1U << 14U;
 
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return text;
 }
 
@@ -34,7 +36,9 @@ void write_header(FileWriter& file, const TinView& view, std::size_t edge_count)
   file.text("end_header\n");
 }
 
-std::int32_t ply_index(VertexId v) { return static_cast<std::int32_t>(v.value()); }
+std::int32_t ply_index(VertexId v) {
+  return static_cast<std::int32_t>(v.value());
+}
 
 }  // namespace
 

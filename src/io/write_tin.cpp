@@ -1,11 +1,11 @@
 // Choosing the writer of a TIN, and the CRS sidecar.
 //
-// A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a NAME.prj
-// that lies there already would be taken for its own: it has to go.
-#include <thalweg/base/error.hpp>
-
+// A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a
+// NAME.prj that lies there already would be taken for its own: it has to go.
 #include "io/file_writer.hpp"
 #include "io/tin_format.hpp"
+
+#include <thalweg/base/error.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -40,12 +40,14 @@ const TinFormat& choose_format(const std::string& path, const std::string& name)
     if (same && format.write != nullptr) return format;
   }
   if (!name.empty()) {
-    throw Error(ErrorCode::Usage, "'" + name + "' is no format that a TIN can be written in; known are " + list_formats());
+    throw Error(ErrorCode::Usage,
+                "'" + name + "' is no format that a TIN can be written in; known are " + list_formats());
   }
   throw Error(ErrorCode::Usage, path + ": " +
                                     (extension.empty() ? "a name without an extension does not say"
                                                        : "the extension '" + extension + "' does not name") +
-                                    " a format for a TIN; known are " + list_formats() + ", or name it with --of");
+                                    " a format for a TIN; known are " + list_formats() +
+                                    ", or name it with --of");
 }
 
 void check_sizes(const TinView& view) {
@@ -54,14 +56,15 @@ void check_sizes(const TinView& view) {
   if (!fits(view.written_xy.size(), vertices) || !fits(view.is_pit.size(), vertices) ||
       !fits(view.vertex_source.size(), vertices) ||
       !fits(view.triangle_orders.size(), view.tin.triangle_count())) {
-    throw Error(ErrorCode::Internal, "the attributes of a TIN to write do not fit its vertices and triangles");
+    throw Error(ErrorCode::Internal,
+                "the attributes of a TIN to write do not fit its vertices and triangles");
   }
 }
 
 }  // namespace
 
-void write_tin(const std::string& path, const TinView& view, const WriteOptions& options, PendingOutputs& pending,
-               Overwrite mode, Progress& progress) {
+void write_tin(const std::string& path, const TinView& view, const WriteOptions& options,
+               PendingOutputs& pending, Overwrite mode, Progress& progress) {
   check_sizes(view);
   const TinFormat& format = choose_format(path, options.format);
   const CreationOptions creation(options.creation_options, format.info);

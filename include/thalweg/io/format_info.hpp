@@ -9,9 +9,9 @@ namespace thalweg {
 
 /// One format, as listed to users.
 struct FormatInfo {
-  std::string name;                           ///< as after --of: "PLY"
-  std::string description;                    ///< one line
-  std::vector<std::string> extensions;        ///< lower case, with the dot; the first is the usual one
+  std::string name;                     ///< as after --of: "PLY"
+  std::string description;              ///< one line
+  std::vector<std::string> extensions;  ///< lower case, with the dot; the first is the usual one
   bool reads = false;
   bool writes = false;
   std::vector<std::string> creation_options;  ///< "EDGES=YES|NO", the default first

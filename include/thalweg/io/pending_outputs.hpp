@@ -13,8 +13,8 @@ enum class Overwrite : std::uint8_t { No, Yes };
 
 /// The files that one run will leave behind.
 ///
-/// Each is written under a hidden name in its target's folder; `commit` gives all of them their names. Whatever was
-/// not committed is removed by the destructor, so that an error or a cancel leaves nothing.
+/// Each is written under a hidden name in its target's folder; `commit` gives all of them their names.
+/// Whatever was not committed is removed by the destructor, so that an error or a cancel leaves nothing.
 /// Laws: (1) before `commit` no target is touched; (2) after the destructor no temporary file is left;
 /// (3) a committed file has been flushed to the device. Devices and pipes (/dev/stdout) are written directly.
 class PendingOutputs {
@@ -24,14 +24,14 @@ class PendingOutputs {
   PendingOutputs(const PendingOutputs&) = delete;
   PendingOutputs& operator=(const PendingOutputs&) = delete;
 
-  /// Checks that `target` can be written and returns the path to write to: no file is there yet, the folder and the
-  /// extension are those of the target. A target that is a symbolic link is followed.
-  /// Throws: Error{NotFound} if the folder is missing, Error{OutputExists} if the target exists and `mode` is No,
+  /// Checks that `target` can be written and returns the path to write to: no file is there yet, the folder
+  /// and the extension are those of the target. A target that is a symbolic link is followed. Throws:
+  /// Error{NotFound} if the folder is missing, Error{OutputExists} if the target exists and `mode` is No,
   /// Error{Usage} if it is a folder or was added before, Error{WriteFailed} if the folder cannot be written.
   std::string add(const std::string& target, Overwrite mode);
 
-  /// Sees to it that no file `target` is left after `commit`: one that would be taken for a part of the outputs.
-  /// Throws: Error{OutputExists} if there is one and `mode` is No.
+  /// Sees to it that no file `target` is left after `commit`: one that would be taken for a part of the
+  /// outputs. Throws: Error{OutputExists} if there is one and `mode` is No.
   void remove_stale(const std::string& target, Overwrite mode);
 
   /// Flushes every added file to the device and renames it to its target.

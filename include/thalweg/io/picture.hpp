@@ -20,16 +20,17 @@ struct PictureScene {
   double vertical_metres_per_unit = 1;
   std::span<const std::uint8_t> pits_before;  ///< one a vertex: interior pit of the Delaunay TIN
   std::span<const std::uint8_t> pits_after;   ///< one a vertex: interior pit of this TIN
-  std::span<const std::array<VertexId, 2>> flipped;  ///< edges of this TIN that the Delaunay TIN does not have
+  std::span<const std::array<VertexId, 2>>
+      flipped;  ///< edges of this TIN that the Delaunay TIN does not have
   std::string title;
   int width_px = 1600;  ///< of the whole picture; PDF and SVG have the same size in points
 };
 
 /// Draws the map to the file `path`. `extension` (".png", ".svg" or ".pdf", any case) decides the format.
-/// Detail follows the scale: triangles thin out as they get small, symbols shrink where they are many; in SVG and PDF
-/// the relief of a large TIN is an embedded image. Equal input gives equal bytes in PNG and PDF.
-/// Throws: Error{Usage} for another extension or a width outside 400 to 16000; Error{EmptyInput} if there is no
-/// triangle; Error{WriteFailed}; Error{Cancelled}.
+/// Detail follows the scale: triangles thin out as they get small, symbols shrink where they are many; in SVG
+/// and PDF the relief of a large TIN is an embedded image. Equal input gives equal bytes in PNG and PDF.
+/// Throws: Error{Usage} for another extension or a width outside 400 to 16000; Error{EmptyInput} if there is
+/// no triangle; Error{WriteFailed}; Error{Cancelled}.
 void draw_picture(const std::string& path, const std::string& extension, const PictureScene& scene,
                   Progress& progress);
 

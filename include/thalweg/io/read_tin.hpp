@@ -12,23 +12,23 @@
 
 namespace thalweg {
 
-/// The content of a TIN file, as it stands there: ids count from 0 in the file's order, triangles are not checked
-/// beyond their ids being in range.
+/// The content of a TIN file, as it stands there: ids count from 0 in the file's order, triangles are not
+/// checked beyond their ids being in range.
 struct TinFile {
   std::vector<Point2> points;
   std::vector<double> heights;
   std::vector<Triangle> triangles;
   std::vector<ConstraintEdge> constraints;
   std::vector<std::uint16_t> triangle_orders;  ///< one a triangle, or empty
-  std::string crs;                             ///< "EPSG:n", the WKT that the file or its sidecar holds, or empty
+  std::string crs;  ///< "EPSG:n", the WKT that the file or its sidecar holds, or empty
 };
 
-/// Reads PLY (ascii, binary of either endianness; unknown elements and properties are skipped), 2DM, OBJ, and GPKG as
-/// written by `write_tin`. The content decides the format, not the extension.
-/// Throws: Error{NotFound}, Error{Unreadable}; Error{BadFormat} naming the line, offset or feature;
-/// Error{BadCoordinate} for values that are not finite; Error{WrongGeometry} for faces with other than three corners;
-/// Error{Unsupported} if no format is recognised; Error{Cancelled}.
-/// Memory is bounded by the file's size, whatever counts it claims.
+/// Reads PLY (ascii, binary of either endianness; unknown elements and properties are skipped), 2DM, OBJ, and
+/// GPKG as written by `write_tin`. The content decides the format, not the extension. Throws:
+/// Error{NotFound}, Error{Unreadable}; Error{BadFormat} naming the line, offset or feature;
+/// Error{BadCoordinate} for values that are not finite; Error{WrongGeometry} for faces with other than three
+/// corners; Error{Unsupported} if no format is recognised; Error{Cancelled}. Memory is bounded by the file's
+/// size, whatever counts it claims.
 TinFile read_tin(const std::string& path, Progress& progress);
 
 }  // namespace thalweg

@@ -28,20 +28,19 @@ struct TinView {
 };
 
 struct WriteOptions {
-  std::string format;                         ///< a name of `tin_formats`, any case; empty: by the path's extension
+  std::string format;  ///< a name of `tin_formats`, any case; empty: by the path's extension
   std::vector<std::string> creation_options;  ///< "KEY=VALUE", any case of key
 };
 
 /// Writes the TIN, and a sidecar NAME.prj where the format cannot hold the CRS.
 ///
-/// Coordinates and heights read back as the same doubles in every text and binary format. Equal input gives equal
-/// bytes. Vertex ids are the TIN's (2DM and OBJ count from 1). The files appear when `pending` is committed.
-/// Throws: Error{Usage} for an unknown format, extension or creation option, listing the known ones; what
-/// `PendingOutputs::add` throws; Error{WriteFailed} if not every byte could be written (disk full);
-/// Error{Cancelled}.
-/// Complexity: linear; memory O(1) beyond the TIN, except for a list of the edges.
-void write_tin(const std::string& path, const TinView& view, const WriteOptions& options, PendingOutputs& pending,
-               Overwrite mode, Progress& progress);
+/// Coordinates and heights read back as the same doubles in every text and binary format. Equal input gives
+/// equal bytes. Vertex ids are the TIN's (2DM and OBJ count from 1). The files appear when `pending` is
+/// committed. Throws: Error{Usage} for an unknown format, extension or creation option, listing the known
+/// ones; what `PendingOutputs::add` throws; Error{WriteFailed} if not every byte could be written (disk
+/// full); Error{Cancelled}. Complexity: linear; memory O(1) beyond the TIN, except for a list of the edges.
+void write_tin(const std::string& path, const TinView& view, const WriteOptions& options,
+               PendingOutputs& pending, Overwrite mode, Progress& progress);
 
 /// All formats of TIN files that are read or written.
 std::span<const FormatInfo> tin_formats();
