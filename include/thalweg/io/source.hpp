@@ -1,0 +1,96 @@
+#pragma once
+
+/// Reading points, lines and areas from files into one survey.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/geometry/point.hpp>
+#include <thalweg/io/crs.hpp>
+#include <thalweg/io/nodata_region.hpp>
+#include <thalweg/mesh/edge_kind.hpp>
+#include <thalweg/mesh/survey.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace thalweg {
+
+/// A file (or GDAL virtual path, or database connection) and one of its layers; empty: the only one that
+/// fits.
+struct SourceSpec {
+  std::string path;
+  std::string layer;
+};
+
+/// Splits "PATH" or "PATH|layername=NAME". Throws: Error{Usage} if the path or the name is empty, or for the
+/// other suffixes that QGIS writes (|layerid=, |subset=, |geometrytype=).
+SourceSpec parse_source(std::string_view text);
+
+/// Lines of one kind: ridges, valleys, breaklines; or, for the kinds Boundary, Hole and Lake, rings of areas.
+struct LineSource {
+  SourceSpec source;
+  EdgeKind kind = EdgeKind::Breakline;
+};
+
+/// Whether points need a height.
+enum class HeightRule {
+  Required,  ///< a point without height is an error
+  Optional   ///< it gets the height 0
+};
+
+/// How sources are read. An option that names a field, and `where`, apply to every source that has the field;
+/// a source that has not is read without it, and a note says so; no source that has it: Error.
+struct ReadOptions {
+  std::string z_field;  ///< attribute or text column with the height of points; goes before the geometry's z
+  std::string line_z_field;  ///< attribute with the one height of a line
+  std::string
+      kind_field;     ///< attribute that begins with "ridge" or "valley" (any case); else the source's kind
+  std::string where;  ///< condition on attributes, in OGR's SQL
+  /// In the plane of the survey. Points outside are left out. Lines stay whole if they meet the box, else
+  /// they go; holes and lakes likewise by their area; boundaries always stay.
+  std::optional<Box2> bbox;
+  std::string source_crs;  ///< replaces the CRS that the sources declare
+  std::string target_crs;  ///< CRS of the survey; default: that of the first source that has one
+  std::string
+      assigned_crs;  ///< CRS of the survey by declaration, nothing is transformed to it; excludes target_crs
+  NodataMode nodata = NodataMode::BridgeHoles;
+  HeightRule heights = HeightRule::Required;
+};
+
+/// The survey, and what happened on the way to it.
+struct ReadResult {
+  Survey survey;
+  CrsInfo crs;                      ///< of the survey's coordinates and heights
+  std::size_t points_read = 0;      ///< points that the sources hold, after `where`; valid cells of rasters
+  std::size_t outside_bbox = 0;     ///< of these (and of raster cells, valid or not) outside of the box
+  std::size_t nodata_skipped = 0;   ///< raster cells without data
+  std::size_t breaklines_read = 0;  ///< lines and rings in the survey: its lines' number
+  std::size_t breakline_vertices = 0;  ///< their vertices, the repeated one of a closed ring included
+  std::size_t lines_outside_bbox = 0;  ///< lines and rings left out
+  NodataRegion nodata;
+  std::size_t nodata_holes = 0;    ///< regions without data that are bridged
+  std::size_t bridged_cells = 0;   ///< their cells
+  std::vector<std::string> notes;  ///< what a user should know, one sentence each
+};
+
+/// Reads all sources, in the order given, into one plane.
+///
+/// Points: OGR layers of points and multipoints; text (.csv .tsv .txt .xyz .asc .dat, also with .gz:
+/// separators , ; tab or blanks; # comments; columns by name, else the first three); rasters (a point a valid
+/// cell centre, first band, from the top row down; x = x0 + (column + 0.5) dx, y = y0 + (row + 0.5) dy for a
+/// raster that is not rotated); meshes that Thalweg wrote. Lines: OGR lines and polygons, curves as OGR
+/// linearises them; with z hard, without soft. Empty geometries are skipped, with a note. Where a source's
+/// CRS differs from the survey's, its coordinates are transformed, and its heights are brought to the
+/// survey's unit of heights. Sources without CRS are taken to be in the survey's, with a note.
+///
+/// Throws: Error{NotFound}: no such file or layer; Error{Unreadable}: not openable, in GDAL's words;
+/// Error{BadFormat}: broken content, naming row or feature; Error{EmptyInput}; Error{WrongGeometry};
+/// Error{MissingHeight}; Error{BadCoordinate}; Error{BadCrs}; Error{Usage}; Error{Unsupported};
+/// Error{SizeLimit}; Error{Cancelled}. Complexity: linear; text is read in blocks and never held whole.
+ReadResult read_survey(std::span<const SourceSpec> points, std::span<const LineSource> lines,
+                       const ReadOptions& options, Progress& progress);
+
+}  // namespace thalweg

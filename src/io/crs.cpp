@@ -1,0 +1,148 @@
+// Reading CRS definitions.
+//
+// 1. OGRSpatialReference understands the definition (without asking the network) and tells the kind, the
+// horizontal
+//    unit and the ellipsoid.
+// 2. The unit of heights stands in the coordinate system of the vertical part, which OGRSpatialReference
+// shows only
+//    for compound CRSs; PROJJSON shows it always: the last axis, if there are three, or the vertical
+//    component.
+#include "io/gdal_session.hpp"
+#include "io/spatial_reference.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/io/crs.hpp>
+
+#include <cpl_conv.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+
+namespace thalweg {
+
+namespace {
+
+using Json = nlohmann::json;
+
+struct FreeCpl {
+  void operator()(char* text) const { CPLFree(text); }
+};
+using CplText = std::unique_ptr<char, FreeCpl>;
+
+/// The axes of a CRS, those of all components one after the other.
+void collect_axes(const Json& crs, Json& axes) {
+  if (crs.contains("source_crs")) return collect_axes(crs["source_crs"], axes);
+  if (crs.contains("components")) {
+    for (const Json& component : crs["components"]) collect_axes(component, axes);
+  }
+  if (!crs.contains("coordinate_system")) return;
+  for (const Json& axis : crs["coordinate_system"]["axis"]) axes.push_back(axis);
+}
+
+std::optional<double> vertical_unit(const OGRSpatialReference& reference) {
+  char* text = nullptr;
+  reference.exportToPROJJSON(&text, nullptr);
+  const CplText owned(text);
+  if (text == nullptr) return std::nullopt;
+  const Json crs = Json::parse(text, nullptr, false);
+  if (crs.is_discarded()) return std::nullopt;
+  Json axes = Json::array();
+  collect_axes(crs, axes);
+  if (axes.size() < 3 || !axes[2].contains("unit")) return std::nullopt;
+  const Json& unit = axes[2]["unit"];
+  if (unit == "metre") return 1;
+  if (!unit.is_object() || !unit.contains("conversion_factor")) return std::nullopt;
+  return unit["conversion_factor"].get<double>();
+}
+
+std::string authority_of(const OGRSpatialReference& reference) {
+  const auto code_of = [](const OGRSpatialReference& crs) -> std::string {
+    const char* name = crs.GetAuthorityName(nullptr);
+    const char* code = crs.GetAuthorityCode(nullptr);
+    return name != nullptr && code != nullptr ? std::string(name) + ":" + code : std::string();
+  };
+  std::string authority = code_of(reference);
+  if (!authority.empty()) return authority;
+  // 90 of 100 and more: same name and equivalent definition; the limit that GDAL's own drivers use.
+  constexpr int kSure = 90;
+  int count = 0;
+  int* confidence = nullptr;
+  OGRSpatialReferenceH* matches = reference.FindMatches(nullptr, &count, &confidence);
+  if (count == 1 && confidence[0] >= kSure) authority = code_of(*OGRSpatialReference::FromHandle(matches[0]));
+  OSRFreeSRSArray(matches);
+  CPLFree(confidence);
+  return authority;
+}
+
+/// Definitions hold angles and angular units with 15 digits: 12 digits of their degrees are sure.
+double round_degrees(double degrees) {
+  constexpr double kDigits = 1e12;
+  return std::round(degrees * kDigits) / kDigits;
+}
+
+std::string to_wkt(const OGRSpatialReference& reference) {
+  const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+  char* text = nullptr;
+  const OGRErr error = reference.exportToWkt(&text, options);
+  const CplText owned(text);
+  return error == OGRERR_NONE && text != nullptr ? text : "";
+}
+
+}  // namespace
+
+OGRSpatialReference parse_reference(const std::string& definition) {
+  GdalSession session;
+  OGRSpatialReference reference;
+  const char* const options[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=YES", nullptr};
+  if (reference.SetFromUserInput(definition.c_str(), options) != OGRERR_NONE) {
+    throw Error(ErrorCode::BadCrs, "CRS \"" + definition + "\" is not understood" + session.reason() +
+                                       "; give EPSG:n, WKT, a PROJ string or a .prj file");
+  }
+  reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return reference;
+}
+
+CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin) {
+  CrsInfo info;
+  if (reference.IsEmpty()) return info;
+  GdalSession session;
+  const bool planar = reference.IsProjected() || reference.IsLocal();
+  if (reference.IsGeocentric() || (!planar && !reference.IsGeographic())) {
+    throw Error(ErrorCode::BadCrs, "the CRS of " + origin +
+                                       " has no plane of east and north; give a projected or geographic one");
+  }
+  info.known = true;
+  info.wkt = to_wkt(reference);
+  const char* name = reference.GetName();
+  info.name = name != nullptr ? name : "";
+  info.authority = authority_of(reference);
+  info.geographic = !planar;
+  if (info.geographic) {
+    info.degrees_per_unit = round_degrees(reference.GetAngularUnits() * 180 / std::numbers::pi);
+    info.prime_meridian_deg = round_degrees(reference.GetPrimeMeridian());
+  } else {
+    info.horizontal_metres_per_unit = reference.GetLinearUnits();
+  }
+  const std::optional<double> unit = vertical_unit(reference);
+  info.vertical_unit_told = unit.has_value();
+  info.vertical_metres_per_unit = unit.value_or(info.horizontal_metres_per_unit);
+  OGRErr error = OGRERR_NONE;
+  const double radius = reference.GetSemiMajor(&error);
+  if (error == OGRERR_NONE) {
+    const double inverse_flattening = reference.GetInvFlattening();
+    info.equatorial_radius_m = radius;
+    info.flattening = inverse_flattening > 0 ? 1 / inverse_flattening : 0;
+  }
+  return info;
+}
+
+CrsInfo describe_crs(const std::string& definition) {
+  if (definition.empty()) return {};
+  return describe_reference(parse_reference(definition), "definition \"" + definition + "\"");
+}
+
+}  // namespace thalweg

@@ -1,0 +1,21 @@
+#pragma once
+
+/// CRS definitions as GDAL's objects.
+
+#include <thalweg/io/crs.hpp>
+
+#include <ogr_spatialref.h>
+
+#include <string>
+
+namespace thalweg {
+
+/// Reads a definition as `describe_crs` does; x is east or longitude whatever the definition says.
+/// Throws: Error{BadCrs}. Pre: the definition is not empty.
+OGRSpatialReference parse_reference(const std::string& definition);
+
+/// What a reference says; an empty one is the unknown CRS.
+/// Throws: Error{BadCrs} naming `origin`, if the CRS has no plane.
+CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin);
+
+}  // namespace thalweg
