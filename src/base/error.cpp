@@ -9,28 +9,50 @@ namespace thalweg {
 
 std::string_view error_name(ErrorCode code) {
   switch (code) {
-    case ErrorCode::Usage: return "usage";
-    case ErrorCode::NotFound: return "not-found";
-    case ErrorCode::Unreadable: return "unreadable";
-    case ErrorCode::BadFormat: return "bad-format";
-    case ErrorCode::BadCoordinate: return "bad-coordinate";
-    case ErrorCode::EmptyInput: return "empty-input";
-    case ErrorCode::WrongGeometry: return "wrong-geometry";
-    case ErrorCode::MissingHeight: return "missing-height";
-    case ErrorCode::TooFewPoints: return "too-few-points";
-    case ErrorCode::Collinear: return "collinear";
-    case ErrorCode::CrossingLines: return "crossing-lines";
-    case ErrorCode::OutsideHull: return "outside-hull";
-    case ErrorCode::TooClose: return "too-close";
-    case ErrorCode::BadCrs: return "bad-crs";
-    case ErrorCode::InvalidTin: return "invalid-tin";
-    case ErrorCode::Unsupported: return "unsupported";
-    case ErrorCode::SizeLimit: return "size-limit";
-    case ErrorCode::OutputExists: return "output-exists";
-    case ErrorCode::WriteFailed: return "write-failed";
-    case ErrorCode::OutOfMemory: return "out-of-memory";
-    case ErrorCode::Cancelled: return "cancelled";
-    case ErrorCode::Internal: return "internal";
+    case ErrorCode::Usage:
+      return "usage";
+    case ErrorCode::NotFound:
+      return "not-found";
+    case ErrorCode::Unreadable:
+      return "unreadable";
+    case ErrorCode::BadFormat:
+      return "bad-format";
+    case ErrorCode::BadCoordinate:
+      return "bad-coordinate";
+    case ErrorCode::EmptyInput:
+      return "empty-input";
+    case ErrorCode::WrongGeometry:
+      return "wrong-geometry";
+    case ErrorCode::MissingHeight:
+      return "missing-height";
+    case ErrorCode::TooFewPoints:
+      return "too-few-points";
+    case ErrorCode::Collinear:
+      return "collinear";
+    case ErrorCode::CrossingLines:
+      return "crossing-lines";
+    case ErrorCode::OutsideHull:
+      return "outside-hull";
+    case ErrorCode::TooClose:
+      return "too-close";
+    case ErrorCode::BadCrs:
+      return "bad-crs";
+    case ErrorCode::InvalidTin:
+      return "invalid-tin";
+    case ErrorCode::Unsupported:
+      return "unsupported";
+    case ErrorCode::SizeLimit:
+      return "size-limit";
+    case ErrorCode::OutputExists:
+      return "output-exists";
+    case ErrorCode::WriteFailed:
+      return "write-failed";
+    case ErrorCode::OutOfMemory:
+      return "out-of-memory";
+    case ErrorCode::Cancelled:
+      return "cancelled";
+    case ErrorCode::Internal:
+      return "internal";
   }
   return "internal";
 }

@@ -1,7 +1,8 @@
 // The exact stage of the predicates, behind the inline filters.
 //
 // 1. Orientation and in-circle: CGAL's filtered kernel on the same doubles.
-// 2. The tie rule: sort the four points; the largest that is one of a, b, c, and whose replacement by d leaves
+// 2. The tie rule: sort the four points; the largest that is one of a, b, c, and whose replacement by d
+// leaves
 //    a proper triangle, decides by that triangle's orientation; if d comes first, it is outside.
 // 3. Segment against open disc: the condition is written without division as signs of polynomials in
 //    coordinates relative to a, evaluated in intervals first and in rationals where those do not decide.
@@ -21,7 +22,9 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_2 to_cgal(Point2 p) { return {p.x, p.y}; }
+Kernel::Point_2 to_cgal(Point2 p) {
+  return {p.x, p.y};
+}
 
 // Both ends outside the open disc: it is met if and only if the centre projects into the open segment and is
 // nearer to the line than the radius. Relative to a, D * centre = (U, V) with D = 2 cross(b - a, c - a) > 0.

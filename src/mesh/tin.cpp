@@ -76,7 +76,8 @@ void Tin::link_halfedges() {
     for (const HalfedgeId other : outgoing(from)) same += target(other) == to ? 1 : 0;
     if (same > 1) {
       throw Error(ErrorCode::InvalidTin, "two triangles lie on the same side of edge " +
-                                             std::to_string(from.value()) + ", " + std::to_string(to.value()));
+                                             std::to_string(from.value()) + ", " +
+                                             std::to_string(to.value()));
     }
     for (const HalfedgeId other : outgoing(to)) {
       if (target(other) == from) twins_[i] = other;
