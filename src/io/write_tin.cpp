@@ -63,6 +63,11 @@ void check_sizes(const TinView& view) {
 
 }  // namespace
 
+void check_write_options(const std::string& path, const WriteOptions& options) {
+  const TinFormat& format = choose_format(path, options.format);
+  const CreationOptions creation(options.creation_options, format.info);
+}
+
 void write_tin(const std::string& path, const TinView& view, const WriteOptions& options,
                PendingOutputs& pending, Overwrite mode, Progress& progress) {
   check_sizes(view);
