@@ -1,0 +1,22 @@
+#pragma once
+
+/// The constrained Delaunay triangulation of vertices that are fit for it already.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/tin.hpp>
+
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+/// Triangulates the convex hull of the points such that every constraint edge is an edge, and every other
+/// edge is locally Delaunay under the tie rule of `in_circle_perturbed`: there is exactly one such
+/// triangulation. Pre: points distinct and finite; constraint edges meet only at their ends, and hold no
+/// other vertex; an edge may be given several times (its kinds add up). Throws: Error{TooFewPoints} fewer
+/// than three points; {Collinear}; {InvalidTin} the constraint edges break the precondition; {Cancelled}.
+/// Complexity: n log n in practice; about 1 us a point, 2 us a constraint edge.
+Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
+                std::span<const ConstraintEdge> constraints, Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,81 @@
+// A packed R-tree.
+//
+// 1. Boxes are laid out along the Hilbert order of their centres, and eight successive ones make a node
+//    (Kamel, Faloutsos, On packing R-trees, 1993). Clusters and outliers do not hurt, as they would a grid.
+// 2. The box of a long oblique segment is mostly empty. Segments are cut into parts of equal length such that
+//    no part spans more than L in both x and y; L is chosen so that there are at most 2 n + kSpareParts
+//    parts.
+#include "box_tree.hpp"
+
+#include "spatial_order.hpp"
+
+#include <cmath>
+
+namespace thalweg {
+
+namespace {
+
+constexpr double kSpareParts = 30000;
+// A point of a segment computed as a + t (b - a) is off by less than four units in the last place.
+constexpr double kRounding = 0x1p-50;
+
+double narrow_extent(const Segment& s) {
+  return std::min(std::abs(s.b.x - s.a.x), std::abs(s.b.y - s.a.y));
+}
+
+}  // namespace
+
+BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> items,
+                 const Progress& progress) {
+  if (boxes.empty()) return;
+  std::vector<Point2> centres(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    centres[i] = {(boxes[i].x_min + boxes[i].x_max) / 2, (boxes[i].y_min + boxes[i].y_max) / 2};
+  }
+  std::vector<Box2>& leaves = levels_.emplace_back();
+  leaves.reserve(boxes.size());
+  items_.reserve(boxes.size());
+  for (const std::uint32_t i : hilbert_order(centres, progress)) {
+    leaves.push_back(boxes[i]);
+    items_.push_back(items[i]);
+  }
+  while (levels_.back().size() > kChildren) {
+    const std::vector<Box2>& below = levels_.back();
+    std::vector<Box2> level((below.size() + kChildren - 1) / kChildren);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      level[i / kChildren].add({below[i].x_min, below[i].y_min});
+      level[i / kChildren].add({below[i].x_max, below[i].y_max});
+    }
+    levels_.push_back(std::move(level));
+  }
+}
+
+BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress) {
+  double total = 0;
+  double largest = 0;
+  for (const Segment& s : segments) {
+    total += narrow_extent(s);
+    for (const double c : {s.a.x, s.a.y, s.b.x, s.b.y}) largest = std::max(largest, std::abs(c));
+  }
+  const double longest_part = total / (static_cast<double>(segments.size()) + kSpareParts);
+  const double margin = largest * kRounding;
+  std::vector<Box2> boxes;
+  std::vector<std::uint32_t> items;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto& [a, b] = segments[i];
+    const double parts =
+        longest_part > 0 ? std::max(1.0, std::ceil(narrow_extent(segments[i]) / longest_part)) : 1.0;
+    Point2 from = a;
+    for (double part = 1; part <= parts; ++part) {
+      const double t = part / parts;
+      const Point2 to = part < parts ? Point2{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)} : b;
+      boxes.push_back({std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin,
+                       std::max(from.x, to.x) + margin, std::max(from.y, to.y) + margin});
+      items.push_back(static_cast<std::uint32_t>(i));
+      from = to;
+    }
+  }
+  return {boxes, items, progress};
+}
+
+}  // namespace thalweg

@@ -1,0 +1,73 @@
+#pragma once
+
+/// A static tree of boxes: which of many boxes meet a given one.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/geometry/point.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+struct Segment {
+  Point2 a;
+  Point2 b;
+};
+
+inline bool meet(const Box2& p, const Box2& q) {
+  return p.x_min <= q.x_max && q.x_min <= p.x_max && p.y_min <= q.y_max && q.y_min <= p.y_max;
+}
+
+/// The box of all positions at most `margin` from p in x and in y (rounded to nearest).
+inline Box2 box_around(Point2 p, double margin) {
+  return {p.x - margin, p.y - margin, p.x + margin, p.y + margin};
+}
+
+/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 41 bytes a box.
+class BoxTree {
+ public:
+  BoxTree() = default;
+  /// `items[i]` is what a visitor of `boxes[i]` is given; several boxes may have the same item.
+  BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> items, const Progress& progress);
+
+  [[nodiscard]] std::size_t size() const { return items_.size(); }
+  /// Boxes and items in the tree's order: neighbours in it are close in the plane.
+  [[nodiscard]] const Box2& box(std::size_t i) const { return levels_.front()[i]; }
+  [[nodiscard]] std::uint32_t item(std::size_t i) const { return items_[i]; }
+
+  /// Calls `visitor(item)` for each box that meets the query (closed), in the tree's order.
+  template <class Visitor>
+  void visit(const Box2& query, const Visitor& visitor) const {
+    if (!levels_.empty()) visit_range(levels_.size() - 1, 0, levels_.back().size(), query, visitor);
+  }
+
+ private:
+  static constexpr std::size_t kChildren = 8;
+
+  template <class Visitor>
+  void visit_range(std::size_t level, std::size_t begin, std::size_t end, const Box2& query,
+                   const Visitor& visitor) const {
+    const std::vector<Box2>& boxes = levels_[level];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!meet(boxes[i], query)) continue;
+      if (level == 0) {
+        visitor(items_[i]);
+      } else {
+        const std::size_t first = i * kChildren;
+        visit_range(level - 1, first, std::min(first + kChildren, levels_[level - 1].size()), query, visitor);
+      }
+    }
+  }
+
+  std::vector<std::vector<Box2>> levels_;  // from the leaves up
+  std::vector<std::uint32_t> items_;
+};
+
+/// The tree of segments, by index; a long one is covered by several boxes, so a visitor may meet an item more
+/// than once. Boxes are wider than the segments by a few units in the last place, never narrower.
+BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,209 @@
+// Distinct positions.
+//
+// 1. All positions, points first, then line vertices, are sorted by (x, y, index).
+// 2. Without snapping each run of equal positions is one group.
+// 3. With snapping a sweep in that order keeps the representatives within reach in x, sorted by y; two of
+// them
+//    are farther apart than the reach, so a window of reach by reach holds only a few. First the points: each
+//    joins the first representative within reach, or becomes one. Then the line vertices: each takes the
+//    nearest point's representative within reach; the others are swept among themselves as points were.
+// 4. A group's name is its smallest index; groups are numbered in order of their names.
+#include "merge.hpp"
+
+#include "provenance.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <fmt/format.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+
+namespace thalweg {
+
+namespace {
+
+constexpr double kLargest = 1e15;
+
+struct Placed {
+  Point2 xy;
+  std::uint32_t index = 0;
+  bool operator<(const Placed& other) const {
+    return std::tie(xy.x, xy.y, index) < std::tie(other.xy.x, other.xy.y, other.index);
+  }
+};
+
+bool fit(Point2 p, double z) {
+  return std::abs(p.x) <= kLargest && std::abs(p.y) <= kLargest && std::abs(z) <= kLargest;
+}
+
+[[noreturn]] void refuse(const std::string& what, Point2 p, double z) {
+  throw Error(ErrorCode::BadCoordinate,
+              fmt::format("{}: coordinates ({}, {}, {}) must be finite and within 1e15; filter or repair it",
+                          what, p.x, p.y, z));
+}
+
+void check_coordinates(const Survey& survey) {
+  for (std::size_t i = 0; i < survey.points.xy.size(); ++i) {
+    const Point2 p = survey.points.xy[i];
+    if (!fit(p, survey.points.z[i])) refuse(describe_point(survey, i), p, survey.points.z[i]);
+  }
+  for (std::size_t l = 0; l < survey.lines.size(); ++l) {
+    const SurveyLine& line = survey.lines[l];
+    for (std::size_t i = 0; i < line.xy.size(); ++i) {
+      const double z = line.z.empty() ? 0 : line.z[i];
+      if (!fit(line.xy[i], z)) refuse(describe_line_vertex(survey, l, i), line.xy[i], z);
+    }
+  }
+}
+
+// Representatives with x in a moving range, sorted by (y, x).
+class Window {
+ public:
+  explicit Window(double reach) : reach_(reach) {}
+  void add(const Placed& p) {
+    by_y_.emplace(std::pair(p.xy.y, p.xy.x), p);
+    by_x_.push_back(p);
+  }
+  void drop_below(double x) {
+    for (; oldest_ < by_x_.size() && by_x_[oldest_].xy.x < x; ++oldest_) {
+      by_y_.erase({by_x_[oldest_].xy.y, by_x_[oldest_].xy.x});
+    }
+  }
+  // The representative within reach of p that comes first under `less(candidate, best)`.
+  template <class Less>
+  [[nodiscard]] std::optional<Placed> best_near(Point2 p, const Less& less) const {
+    std::optional<Placed> best;
+    for (auto it = by_y_.lower_bound({p.y - reach_, -2 * kLargest}); it != by_y_.end(); ++it) {
+      if (it->first.first > p.y + reach_) break;
+      if (squared_distance(it->second.xy, p) > reach_ * reach_) continue;
+      if (!best || less(it->second, *best)) best = it->second;
+    }
+    return best;
+  }
+  static double squared_distance(Point2 p, Point2 q) {
+    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
+  }
+
+ private:
+  double reach_;
+  std::map<std::pair<double, double>, Placed> by_y_;
+  std::vector<Placed> by_x_;
+  std::size_t oldest_ = 0;
+};
+
+// For each index of `sorted` the index of its representative is set; the representatives are returned.
+std::vector<Placed> merge_in_order(std::span<const Placed> sorted, double snap,
+                                   std::vector<std::uint32_t>& representative) {
+  std::vector<Placed> kept;
+  Window window(snap);
+  for (const Placed& p : sorted) {
+    std::optional<Placed> near;
+    if (snap > 0) {
+      window.drop_below(p.xy.x - snap);
+      near = window.best_near(p.xy, std::less<>());
+    } else if (!kept.empty() && kept.back().xy == p.xy) {
+      near = kept.back();
+    }
+    representative[p.index] = near ? near->index : p.index;
+    if (near) continue;
+    kept.push_back(p);
+    if (snap > 0) window.add(p);
+  }
+  return kept;
+}
+
+// Assigns the line vertices that are near a point's representative; returns the others, still sorted.
+std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const Placed> points, double snap,
+                                std::vector<std::uint32_t>& representative) {
+  std::vector<Placed> others;
+  Window window(snap);
+  std::size_t next = 0;
+  for (const Placed& p : sorted) {
+    for (; next < points.size() && points[next].xy.x <= p.xy.x + snap; ++next) window.add(points[next]);
+    window.drop_below(p.xy.x - snap);
+    const auto nearer = [&p](const Placed& a, const Placed& b) {
+      const double d_a = Window::squared_distance(a.xy, p.xy);
+      const double d_b = Window::squared_distance(b.xy, p.xy);
+      return d_a != d_b ? d_a < d_b : a < b;
+    };
+    if (const auto near = window.best_near(p.xy, nearer)) {
+      representative[p.index] = near->index;
+    } else {
+      others.push_back(p);
+    }
+  }
+  return others;
+}
+
+// For each index the index whose position it takes.
+std::vector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
+                                                double snap) {
+  std::vector<Placed> placed(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) placed[i] = {all[i], static_cast<std::uint32_t>(i)};
+  std::vector<std::uint32_t> representative(all.size());
+  if (!(snap > 0)) {
+    tbb::parallel_sort(placed.begin(), placed.end());
+    merge_in_order(placed, 0, representative);
+    return representative;
+  }
+  const auto border = placed.begin() + static_cast<std::ptrdiff_t>(point_count);
+  tbb::parallel_sort(placed.begin(), border);
+  tbb::parallel_sort(border, placed.end());
+  const std::vector<Placed> points = merge_in_order(std::span(placed.begin(), border), snap, representative);
+  const std::vector<Placed> others =
+      join_points(std::span(border, placed.end()), points, snap, representative);
+  merge_in_order(others, snap, representative);
+  return representative;
+}
+
+}  // namespace
+
+MergedVertices merge_vertices(const Survey& survey, double snap, Progress& progress) {
+  progress.start_phase("merging points");
+  check_coordinates(survey);
+  MergedVertices merged;
+  std::vector<Point2> all = survey.points.xy;
+  const std::size_t point_count = all.size();
+  std::vector<VertexOrigin> line_origins;
+  for (std::size_t l = 0; l < survey.lines.size(); ++l) {
+    const SurveyLine& line = survey.lines[l];
+    merged.first_of_line.push_back(all.size() - point_count);
+    all.insert(all.end(), line.xy.begin(), line.xy.end());
+    for (std::size_t i = 0; i < line.xy.size(); ++i) {
+      line_origins.push_back(
+          {VertexOrigin::Kind::LineVertex, static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(i)});
+    }
+  }
+  const std::vector<std::uint32_t> representative = find_representatives(all, point_count, snap);
+  progress.advance(0.5);
+
+  // Number the groups by their first members; `number` is indexed by representatives.
+  constexpr std::uint32_t kNone = VertexId::kInvalid;
+  std::vector<std::uint32_t> number(all.size(), kNone);
+  std::vector<std::uint32_t> vertex_of(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::uint32_t& vertex = number[representative[i]];
+    if (vertex == kNone) {
+      vertex = static_cast<std::uint32_t>(merged.xy.size());
+      merged.xy.push_back(all[representative[i]]);
+      merged.origins.push_back(i < point_count
+                                   ? VertexOrigin{VertexOrigin::Kind::Point, static_cast<std::uint32_t>(i), 0}
+                                   : line_origins[i - point_count]);
+    }
+    vertex_of[i] = vertex;
+    if (i + 1 == point_count) merged.point_count = merged.xy.size();
+  }
+  merged.of_line_vertex.assign(vertex_of.begin() + static_cast<std::ptrdiff_t>(point_count), vertex_of.end());
+  vertex_of.resize(point_count);
+  merged.of_point = std::move(vertex_of);
+  progress.advance(1);
+  return merged;
+}
+
+}  // namespace thalweg

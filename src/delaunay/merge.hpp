@@ -1,0 +1,30 @@
+#pragma once
+
+/// The distinct positions of a survey.
+
+#include <thalweg/delaunay/ground.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace thalweg {
+
+/// Distinct vertices in order of first appearance: points, then line vertices.
+struct MergedVertices {
+  std::vector<Point2> xy;
+  std::vector<VertexOrigin> origins;
+  std::size_t point_count = 0;             ///< vertices [0, point_count) are points
+  std::vector<std::uint32_t> of_point;     ///< the vertex of each point of the survey
+  std::vector<std::size_t> first_of_line;  ///< where the vertices of line l start in of_line_vertex
+  std::vector<std::uint32_t> of_line_vertex;
+
+  [[nodiscard]] std::uint32_t of_line(std::size_t line, std::size_t vertex) const {
+    return of_line_vertex[first_of_line[line] + vertex];
+  }
+};
+
+/// Merges equal positions, and those within `snap` (see GroundOptions::snap).
+/// Throws: Error{BadCoordinate} naming the first position or height that is not finite or beyond 1e15.
+MergedVertices merge_vertices(const Survey& survey, double snap, Progress& progress);
+
+}  // namespace thalweg
