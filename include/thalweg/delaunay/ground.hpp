@@ -8,6 +8,7 @@
 /// and Last aside; (6) a height that is interpolated never leaves the range of the heights it comes from.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/ground_mode.hpp>
 #include <thalweg/mesh/survey.hpp>
 #include <thalweg/mesh/tin.hpp>
 
@@ -41,12 +42,6 @@ struct VertexOrigin {
   Kind kind = Kind::Point;
   std::uint32_t index = 0;   ///< point, or line, in the survey; of a crossing: one of its lines
   std::uint32_t vertex = 0;  ///< vertex in the line; of a crossing: the vertex before it
-};
-
-/// What bounds the ground.
-enum class GroundMode : std::uint8_t {
-  Hull,    ///< the convex hull of all vertices
-  Polygon  ///< the boundary and holes that were given
 };
 
 struct Ground {

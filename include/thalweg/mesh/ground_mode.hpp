@@ -1,0 +1,14 @@
+#pragma once
+
+/// What bounds the ground on which paths run and points see each other.
+
+#include <cstdint>
+
+namespace thalweg {
+
+enum class GroundMode : std::uint8_t {
+  Hull,    ///< the convex hull of all vertices; outside of it paths may run, too
+  Polygon  ///< the boundary and holes that were given: what lies outside is no ground at all
+};
+
+}  // namespace thalweg
