@@ -128,7 +128,7 @@ std::vector<ConstraintEdge> Tin::constraint_edges() const {
   for (std::size_t i = 0; i < halfedge_count(); ++i) {
     const HalfedgeId h{i};
     if (!constrained(h) || !represents_edge(h)) continue;
-    const auto [low, high] = std::minmax(origin(h), target(h));
+    const auto [low, high] = std::minmax({origin(h), target(h)});
     edges.push_back({low, high, kind(h)});
   }
   std::sort(edges.begin(), edges.end(), [](const ConstraintEdge& a, const ConstraintEdge& b) {
