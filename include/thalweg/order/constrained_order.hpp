@@ -1,0 +1,104 @@
+#pragma once
+
+/// Constrained orders of triangles, and sight, over a constrained Delaunay triangulation.
+
+#include <thalweg/mesh/tin.hpp>
+#include <thalweg/order/definition.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace thalweg {
+
+/// Why three vertices form no triangle of any triangulation; the first that applies.
+enum class TriangleFault : std::uint8_t {
+  None,      ///< it is a valid triangle
+  Flat,      ///< the corners are collinear or repeated
+  Occupied,  ///< another vertex lies in the closed triangle
+  Crossed,   ///< a constraint edge runs through it
+  Outside    ///< it lies off the ground (mode Polygon, or a corner that is in no triangle)
+};
+
+struct TriangleValidity {
+  TriangleFault fault = TriangleFault::None;
+  VertexId by;     ///< Occupied: the lowest such vertex; Crossed: the lower end of the first such edge
+  VertexId other;  ///< Crossed: the higher end of that edge
+};
+
+/// Scratch memory of queries: one a thread, reused from query to query.
+class OrderWorkspace {
+ public:
+  OrderWorkspace();
+  ~OrderWorkspace();
+  OrderWorkspace(OrderWorkspace&&) noexcept;
+  OrderWorkspace& operator=(OrderWorkspace&&) noexcept;
+
+ private:
+  friend class ConstrainedOrder;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Answers queries about orders over one ground.
+///
+/// Laws (tests): (1) of the same triangle, std >= pathcon >= sees-triang >= sees-vtx >= sees-opp >= sees-3vtx
+/// >= empty-quad and sees-triang >= conf-edge >= sees-opp (Lemma 1); (2) triangles of the ground have order 0
+/// under all but Std (Property 1); (3) without constraint edges all but EmptyQuad are equal (Property 2); (4)
+/// at most 1 under SeesVtx exactly if under SeesTriang, under SeesOpp exactly if under ConfEdge (Lemmas 5 and
+/// 6). Exact for any input: the disc is never perturbed, a vertex on its rim belongs to it by the rule of
+/// in_circle_perturbed.
+/// Thread-safe: queries only read the ground; each thread brings its own workspace. The ground must outlive
+/// this.
+///
+/// Cost, with f the faces of the ground that meet the disc without crossing constraint edges, q the vertices
+/// that Pathcon counts, m the constraint edges met: Std: faces that meet the disc. Pathcon: O(f). The others,
+/// for few vertices: O(f) and for each vertex a walk through the faces on its line of sight. SeesTriang: also
+/// the faces of its view of uv.
+class ConstrainedOrder {
+ public:
+  /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in
+  /// mode Plane. Complexity: linear.
+  explicit ConstrainedOrder(const Tin& ground, GroundMode mode = GroundMode::Plane);
+  ~ConstrainedOrder();
+  ConstrainedOrder(ConstrainedOrder&&) noexcept;
+  ConstrainedOrder& operator=(ConstrainedOrder&&) noexcept;
+
+  [[nodiscard]] const Tin& ground() const;
+  [[nodiscard]] GroundMode mode() const;
+  /// True if nothing blocks: no constraint edge and no polygon's rim. Then all definitions but EmptyQuad
+  /// agree.
+  [[nodiscard]] bool unconstrained() const;
+
+  /// Whether the three vertices form a triangle that a triangulation may hold. Any order and orientation.
+  /// Pre: ids in range. Complexity: the faces of the ground that it overlaps.
+  [[nodiscard]] TriangleValidity validity(const Triangle& triangle, OrderWorkspace& workspace) const;
+  /// The same as a yes or no; stops at the first fault.
+  [[nodiscard]] bool is_valid(const Triangle& triangle, OrderWorkspace& workspace) const;
+
+  /// The order of a triangle. Pre: it is valid; any orientation.
+  [[nodiscard]] std::size_t order(const Triangle& triangle, OrderDefinition definition,
+                                  OrderWorkspace& workspace) const;
+  /// Whether its order is at most k; stops as soon as more than k vertices are certain. Pre: as `order`.
+  [[nodiscard]] bool at_most(const Triangle& triangle, OrderDefinition definition, std::size_t k,
+                             OrderWorkspace& workspace) const;
+  /// The vertices that are counted, ascending. Pre: as `order`.
+  [[nodiscard]] std::vector<VertexId> counted(const Triangle& triangle, OrderDefinition definition,
+                                              OrderWorkspace& workspace) const;
+
+  /// Whether p sees q: pq is a constraint edge, or the open segment meets no constraint edge, ends included,
+  /// save that an edge which ends in p or q may touch it there; in mode Polygon it must also stay on the
+  /// ground. Complexity: the faces that the segment crosses, and the degrees of the vertices that it passes
+  /// through.
+  [[nodiscard]] bool sees(VertexId p, VertexId q) const;
+
+ private:
+  struct Parts;
+  void count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
+             OrderWorkspace& workspace) const;
+  void count_in_grid(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
+
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace thalweg

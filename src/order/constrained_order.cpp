@@ -1,0 +1,202 @@
+// The eight orders of one triangle.
+//
+// 1. Std: all vertices in the disc, by a flood through every edge; over a polygon, whose ground may fall
+// apart inside
+//    the disc, by a grid of its vertices.
+// 2. Pathcon: a flood that edges stop which block (flood.cpp). All other definitions count some of its
+// vertices:
+//    each sight line that they ask for lies in the disc, and joins the vertex to the interior of the
+//    triangle. In particular none of them counts beyond a side that blocks, and no such vertex is reached.
+// 3. SeesOpp: a walk to the opposite vertex. It runs through the triangle, for the part of the disc
+//    beyond a side is a cap that can be left only through that side.
+// 4. SeesTriang: seeing the opposite vertex is enough; else the gaps of the view decide (sights.cpp).
+//    SeesVtx: also a walk to one of the corners.
+// 5. ConfEdge: p counts if it sees the opposite vertex, or a vertex r in the cap of another side: from cap to
+// cap a
+//    segment always crosses the interior, and within a cap or to the ends of its side never. r itself is
+//    reached.
+// 6. Sees3vtx: three walks. EmptyQuad: exactly the p for which uvp is a valid triangle: then up and pv are
+// free or
+//    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
+#include "order/flood.hpp"
+#include "order/occupancy.hpp"
+#include "order/point_grid.hpp"
+#include "order/sights.hpp"
+
+#include <thalweg/base/assert.hpp>
+#include <thalweg/order/constrained_order.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace thalweg {
+
+using detail::Ground;
+
+struct OrderWorkspace::Parts {
+  detail::Flood flood;
+  detail::Occupancy occupancy;
+  detail::SideSight side_sight;
+  std::vector<VertexId> undecided;
+  std::vector<VertexId> counted;
+};
+
+OrderWorkspace::OrderWorkspace() : parts_(std::make_unique<Parts>()) {}
+OrderWorkspace::~OrderWorkspace() = default;
+OrderWorkspace::OrderWorkspace(OrderWorkspace&&) noexcept = default;
+OrderWorkspace& OrderWorkspace::operator=(OrderWorkspace&&) noexcept = default;
+
+struct ConstrainedOrder::Parts {
+  Ground ground;
+  std::optional<detail::PointGrid> grid;  ///< of a polygon
+};
+
+namespace {
+
+/// A vertex beyond one side of a triangle: u and v are the side's ends, the triangle to its left; w is
+/// opposite.
+struct Beyond {
+  VertexId u, v, w;
+};
+
+Beyond side_of(const Ground& ground, const Triangle& corners, VertexId p) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const VertexId u = corners[i];
+    const VertexId v = corners[i + 1];
+    if (orientation(ground.point(u), ground.point(v), ground.point(p)) < 0)
+      return {u, v, corners[(i + 2) % 3]};
+  }
+  return {corners[2], corners[0], corners[1]};
+}
+
+Triangle counter_clockwise(const Ground& ground, Triangle t) {
+  if (orientation(ground.point(t[0]), ground.point(t[1]), ground.point(t[2])) < 0) std::swap(t[1], t[2]);
+  return t;
+}
+
+/// Whether a vertex that Pathcon counts is counted by a definition that looks at it alone.
+bool counts_alone(const Ground& ground, const Triangle& corners, VertexId p, OrderDefinition definition,
+                  detail::SideSight& side_sight, detail::Occupancy& occupancy) {
+  const auto [u, v, w] = side_of(ground, corners, p);
+  switch (definition) {
+    case OrderDefinition::Std:
+    case OrderDefinition::Pathcon:
+      return true;
+    case OrderDefinition::SeesTriang:
+      return ground.sees(p, w) || side_sight.sees_side(ground, p, u, v);
+    case OrderDefinition::SeesVtx:
+      return ground.sees(p, w) ||
+             ((ground.sees(p, u) || ground.sees(p, v)) && side_sight.sees_side(ground, p, u, v));
+    case OrderDefinition::ConfEdge:
+    case OrderDefinition::SeesOpp:
+      return ground.sees(p, w);
+    case OrderDefinition::Sees3vtx:
+      return ground.sees(p, w) && ground.sees(p, u) && ground.sees(p, v);
+    case OrderDefinition::EmptyQuad:
+      return occupancy.inspect(ground, {u, v, p}, detail::Inspection::FirstFault).fault ==
+             TriangleFault::None;
+  }
+  return false;
+}
+
+}  // namespace
+
+ConstrainedOrder::ConstrainedOrder(const Tin& ground, GroundMode mode)
+    : parts_(std::make_unique<Parts>(Parts{Ground(ground, mode), std::nullopt})) {
+  if (mode == GroundMode::Polygon) parts_->grid.emplace(ground);
+}
+ConstrainedOrder::~ConstrainedOrder() = default;
+ConstrainedOrder::ConstrainedOrder(ConstrainedOrder&&) noexcept = default;
+ConstrainedOrder& ConstrainedOrder::operator=(ConstrainedOrder&&) noexcept = default;
+
+const Tin& ConstrainedOrder::ground() const {
+  return parts_->ground.tin();
+}
+GroundMode ConstrainedOrder::mode() const {
+  return parts_->ground.mode();
+}
+
+bool ConstrainedOrder::unconstrained() const {
+  return !parts_->ground.any_blocks();
+}
+
+TriangleValidity ConstrainedOrder::validity(const Triangle& triangle, OrderWorkspace& workspace) const {
+  return workspace.parts_->occupancy.inspect(parts_->ground, triangle, detail::Inspection::Lowest);
+}
+
+bool ConstrainedOrder::is_valid(const Triangle& triangle, OrderWorkspace& workspace) const {
+  return workspace.parts_->occupancy.inspect(parts_->ground, triangle, detail::Inspection::FirstFault)
+             .fault == TriangleFault::None;
+}
+
+bool ConstrainedOrder::sees(VertexId p, VertexId q) const {
+  return parts_->ground.sees(p, q);
+}
+
+void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
+                                     std::vector<VertexId>& counted) const {
+  const detail::Circumdisc disc(ground().point(corners[0]), ground().point(corners[1]),
+                                ground().point(corners[2]));
+  parts_->grid->visit_box(disc.box(), [&](VertexId v) {
+    if (std::find(corners.begin(), corners.end(), v) != corners.end()) return true;
+    const int side = disc.side(ground().point(v));
+    if (side > 0 || (side == 0 && disc.wins_tie(ground().point(v)))) counted.push_back(v);
+    return counted.size() <= limit;
+  });
+}
+
+// Leaves the vertices counted in the workspace; stops when there are more than `limit`.
+void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
+                             OrderWorkspace& workspace) const {
+  const Ground& ground = parts_->ground;
+  auto& [flood, occupancy, side_sight, undecided, counted] = *workspace.parts_;
+  counted.clear();
+  undecided.clear();
+  const Triangle corners = counter_clockwise(ground, triangle);
+  if (definition == OrderDefinition::Std && parts_->grid) return count_in_grid(corners, limit, counted);
+  const auto start = ground.face_in_angle(corners[0], corners[1], corners[2]);
+  THALWEG_ASSERT(start.has_value());
+  if (!start) return;
+  const bool all = definition == OrderDefinition::Std || !ground.any_blocks();
+  flood.start(ground, corners, Tin::triangle_of(*start),
+              all ? detail::Barrier::None : detail::Barrier::BlockingEdges);
+  while (const auto p = flood.next()) {
+    if (counts_alone(ground, corners, *p, definition, side_sight, occupancy)) {
+      counted.push_back(*p);
+      if (counted.size() > limit) return;
+    } else {
+      undecided.push_back(*p);
+    }
+  }
+  if (definition != OrderDefinition::ConfEdge) return;
+  for (const VertexId p : undecided) {
+    const VertexId opposite = side_of(ground, corners, p).w;
+    const bool conflicts = std::any_of(flood.inside().begin(), flood.inside().end(), [&](VertexId r) {
+      return side_of(ground, corners, r).w != opposite && ground.sees(p, r);
+    });
+    if (conflicts) counted.push_back(p);
+    if (counted.size() > limit) return;
+  }
+}
+
+std::size_t ConstrainedOrder::order(const Triangle& triangle, OrderDefinition definition,
+                                    OrderWorkspace& workspace) const {
+  count(triangle, definition, std::numeric_limits<std::size_t>::max(), workspace);
+  return workspace.parts_->counted.size();
+}
+
+bool ConstrainedOrder::at_most(const Triangle& triangle, OrderDefinition definition, std::size_t k,
+                               OrderWorkspace& workspace) const {
+  count(triangle, definition, k, workspace);
+  return workspace.parts_->counted.size() <= k;
+}
+
+std::vector<VertexId> ConstrainedOrder::counted(const Triangle& triangle, OrderDefinition definition,
+                                                OrderWorkspace& workspace) const {
+  count(triangle, definition, std::numeric_limits<std::size_t>::max(), workspace);
+  std::vector<VertexId> vertices = workspace.parts_->counted;
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+}  // namespace thalweg
