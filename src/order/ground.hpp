@@ -3,6 +3,7 @@
 /// The ground of orders: a triangulation with what blocks on it, and straight walks over it.
 
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/ground_mode.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/order/definition.hpp>
 

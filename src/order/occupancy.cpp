@@ -121,7 +121,8 @@ void Occupancy::note_vertex(const Ground& ground, const Triangle& corners, Verte
 }
 
 void Occupancy::note_crossing(const Tin& tin, HalfedgeId h) {
-  const auto [low, high] = std::minmax(tin.origin(h), tin.target(h));
+  const VertexId low = std::min(tin.origin(h), tin.target(h));
+  const VertexId high = std::max(tin.origin(h), tin.target(h));
   if (crossing_low_.valid() && std::pair(crossing_low_, crossing_high_) < std::pair(low, high)) return;
   crossing_low_ = low;
   crossing_high_ = high;

@@ -27,6 +27,7 @@
 //    triangles must pass the Std flood as well.
 #include "base/parallel.hpp"
 
+#include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/constrained_order.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
 

@@ -2,6 +2,7 @@
 
 /// Constrained orders of triangles, and sight, over a constrained Delaunay triangulation.
 
+#include <thalweg/mesh/ground_mode.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/order/definition.hpp>
 
@@ -58,8 +59,8 @@ class OrderWorkspace {
 class ConstrainedOrder {
  public:
   /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in
-  /// mode Plane. Complexity: linear.
-  explicit ConstrainedOrder(const Tin& ground, GroundMode mode = GroundMode::Plane);
+  /// mode Hull. Complexity: linear.
+  explicit ConstrainedOrder(const Tin& ground, GroundMode mode = GroundMode::Hull);
   ~ConstrainedOrder();
   ConstrainedOrder(ConstrainedOrder&&) noexcept;
   ConstrainedOrder& operator=(ConstrainedOrder&&) noexcept;

@@ -37,10 +37,4 @@ std::string_view definition_name(OrderDefinition definition);
 /// The definition of that name. Throws: Error{Usage} that lists the names.
 OrderDefinition parse_definition(std::string_view name);
 
-/// What the outside of the ground is.
-enum class GroundMode : std::uint8_t {
-  Plane,   ///< the ground covers the convex hull; paths may run outside of it
-  Polygon  ///< the outside is no ground: the rim of the TIN blocks paths and sight as constraint edges do
-};
-
 }  // namespace thalweg

@@ -3,6 +3,7 @@
 /// First-order structure: the quadrilaterals whose diagonal is free at order 1.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/ground_mode.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/order/definition.hpp>
 
@@ -23,7 +24,7 @@ struct Quadrilateral {
 
 struct QuadrilateralOptions {
   OrderDefinition definition = OrderDefinition::SeesOpp;
-  GroundMode mode = GroundMode::Plane;
+  GroundMode mode = GroundMode::Hull;
 };
 
 /// The quadrilaterals whose other triangulation, triangles sut and tvs, has order at most 1; ascending by
