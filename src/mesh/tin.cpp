@@ -2,6 +2,8 @@
 //
 // 1. Turn each triangle so that its smallest id comes first, bucket triangles by that id, sort each bucket.
 // 2. Bucket halfedges by origin; the twin of a -> b is looked up in the bucket of b, whose size is a degree.
+// Large buckets
+//    are sorted by target and bisected, so that a hub of many triangles costs no more than other vertices.
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
 
@@ -12,6 +14,9 @@
 namespace thalweg {
 
 namespace {
+
+// Up to here reading on beats bisection.
+constexpr std::size_t kFewEdges = 32;
 
 std::string describe(const Triangle& t) {
   return std::to_string(t[0].value()) + ", " + std::to_string(t[1].value()) + ", " +
@@ -66,22 +71,23 @@ void Tin::link_halfedges() {
   std::vector<std::uint32_t> fill(first_outgoing_.begin(), first_outgoing_.end() - 1);
   for (std::size_t h = 0; h < count; ++h) outgoing_[fill[origin(HalfedgeId{h}).index()]++] = HalfedgeId{h};
 
-  twins_.assign(count, HalfedgeId{});
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    if (first_outgoing_[v + 1] - first_outgoing_[v] <= kFewEdges) continue;
+    std::sort(outgoing_.begin() + first_outgoing_[v], outgoing_.begin() + first_outgoing_[v + 1],
+              [&](HalfedgeId g, HalfedgeId h) { return std::pair(target(g), g) < std::pair(target(h), h); });
+  }
+
+  twins_.resize(count);
   std::size_t rim = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const HalfedgeId h{i};
-    const VertexId from = origin(h);
-    const VertexId to = target(h);
-    std::size_t same = 0;
-    for (const HalfedgeId other : outgoing(from)) same += target(other) == to ? 1 : 0;
-    if (same > 1) {
+    const VertexId from = origin(HalfedgeId{i});
+    const VertexId to = target(HalfedgeId{i});
+    if (find_halfedge(from, to) != HalfedgeId{i}) {
       throw Error(ErrorCode::InvalidTin, "two triangles lie on the same side of edge " +
                                              std::to_string(from.value()) + ", " +
                                              std::to_string(to.value()));
     }
-    for (const HalfedgeId other : outgoing(to)) {
-      if (target(other) == from) twins_[i] = other;
-    }
+    twins_[i] = find_halfedge(to, from);
     rim += twins_[i].valid() ? 0 : 1;
   }
   edge_count_ = (count + rim) / 2;
@@ -105,10 +111,12 @@ void Tin::mark_constraints(std::span<const ConstraintEdge> constraints) {
 }
 
 HalfedgeId Tin::find_halfedge(VertexId a, VertexId b) const {
-  for (const HalfedgeId h : outgoing(a)) {
-    if (target(h) == b) return h;
-  }
-  return HalfedgeId{};
+  const std::span<const HalfedgeId> fan = outgoing(a);
+  const auto at = fan.size() <= kFewEdges
+                      ? std::find_if(fan.begin(), fan.end(), [&](HalfedgeId h) { return target(h) == b; })
+                      : std::lower_bound(fan.begin(), fan.end(), b,
+                                         [&](HalfedgeId h, VertexId v) { return target(h) < v; });
+  return at != fan.end() && target(*at) == b ? *at : HalfedgeId{};
 }
 
 std::vector<bool> Tin::rim_vertices() const {

@@ -26,9 +26,4 @@ struct DensifyOptions {
 std::size_t densify_lines(Survey& survey, const std::function<Point2(Point2)>& to_plane,
                           DensifyOptions options = {});
 
-/// Makes each point that lies exactly on a piece of a line (in the survey's coordinates, between its ends) a
-/// vertex of that line, so that it stays on the line in any other plane; returns how many were added. The
-/// line's z is linear, as above. Complexity: near linear for pieces that are short against the extent.
-std::size_t split_lines_at_points(Survey& survey);
-
 }  // namespace thalweg

@@ -91,7 +91,7 @@ class Tin {
     return std::span(outgoing_).subspan(first_outgoing_[v.index()],
                                         first_outgoing_[v.index() + 1] - first_outgoing_[v.index()]);
   }
-  /// The halfedge from a to b, or an invalid id. Complexity: the degree of a.
+  /// The halfedge from a to b, or an invalid id. Complexity: at most logarithmic in the degree of a.
   [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
   /// For each vertex: true if it lies on the rim, or in no triangle. Complexity: linear.
   [[nodiscard]] std::vector<bool> rim_vertices() const;

@@ -1,0 +1,37 @@
+// The outline: from a rim halfedge a -> b, turn about b within the fan until the next rim halfedge, which
+// starts at b.
+#include <thalweg/mesh/rim.hpp>
+
+#include <algorithm>
+
+namespace thalweg {
+
+namespace {
+
+HalfedgeId next_on_rim(const Tin& tin, HalfedgeId h) {
+  HalfedgeId next = Tin::next(h);
+  while (!tin.on_rim(next)) next = Tin::next(tin.twin(next));
+  return next;
+}
+
+}  // namespace
+
+std::vector<std::vector<VertexId>> rim_loops(const Tin& tin) {
+  std::vector<std::vector<VertexId>> loops;
+  std::vector<bool> visited(tin.halfedge_count(), false);
+  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
+    const HalfedgeId start{i};
+    if (visited[i] || !tin.on_rim(start)) continue;
+    std::vector<VertexId> loop;
+    for (HalfedgeId h = start; !visited[h.index()]; h = next_on_rim(tin, h)) {
+      visited[h.index()] = true;
+      loop.push_back(tin.origin(h));
+    }
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    loops.push_back(std::move(loop));
+  }
+  std::sort(loops.begin(), loops.end());
+  return loops;
+}
+
+}  // namespace thalweg

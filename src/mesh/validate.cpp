@@ -1,0 +1,380 @@
+// The laws of a TIN, checked.
+//
+// 1. What one vertex, one triangle or one halfedge shows alone is scanned in parallel; each scan keeps the
+// first few finds.
+// 2. Halfedges are bucketed by origin. Two with the same target break a law; the twin of a -> b is looked up
+// among those of b
+//    (by bisection where b has many).
+// 3. Overlap, touching vertices and equal positions are told from the rim alone (rim_sweep.cpp); that holds
+// once all triangles
+//    are counter-clockwise and edges are used once a side. Crossed constraint edges need no test: a
+//    constraint edge is an edge of a triangle, and triangles do not overlap.
+// 4. The rim proves that all positions differ only where nothing is wrong; otherwise all vertices are sorted.
+#include "base/parallel.hpp"
+#include "mesh/rim_sweep.hpp"
+
+#include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/validate.hpp>
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::size_t kListed = 20;
+constexpr std::size_t kBlock = 16384;
+
+std::string name(VertexId v) {
+  return std::to_string(v.value());
+}
+std::string name(VertexId a, VertexId b) {
+  return name(a) + ", " + name(b);
+}
+
+// Halfedges by origin; among those of one vertex sorted by target, then id.
+class Fans {
+ public:
+  Fans() = default;
+  // Pre: ids of triangles exist.
+  Fans(std::span<const Triangle> triangles, std::size_t vertex_count)
+      : triangles_(triangles), start_(vertex_count + 1, 0), halfedges_(3 * triangles.size()) {
+    for (const Triangle& t : triangles) {
+      for (const VertexId v : t) ++start_[v.index() + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    std::vector<std::uint32_t> fill(start_.begin(), start_.end() - 1);
+    for (std::size_t h = 0; h < halfedges_.size(); ++h) {
+      halfedges_[fill[origin(HalfedgeId{h}).index()]++] = HalfedgeId{h};
+    }
+    for_each_block(vertex_count, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        std::sort(
+            halfedges_.begin() + start_[v], halfedges_.begin() + start_[v + 1],
+            [&](HalfedgeId a, HalfedgeId b) { return std::pair(target(a), a) < std::pair(target(b), b); });
+      }
+    });
+  }
+  [[nodiscard]] VertexId origin(HalfedgeId h) const { return triangles_[h.index() / 3][h.index() % 3]; }
+  [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
+  [[nodiscard]] std::span<const HalfedgeId> of(VertexId v) const {
+    return std::span(halfedges_).subspan(start_[v.index()], start_[v.index() + 1] - start_[v.index()]);
+  }
+  [[nodiscard]] HalfedgeId find(VertexId from, VertexId to) const {
+    const std::span<const HalfedgeId> fan = of(from);
+    const auto at =
+        std::lower_bound(fan.begin(), fan.end(), to, [&](HalfedgeId h, VertexId v) { return target(h) < v; });
+    return at != fan.end() && target(*at) == to ? *at : HalfedgeId{};
+  }
+
+ private:
+  std::span<const Triangle> triangles_;
+  std::vector<std::uint32_t> start_;
+  std::vector<HalfedgeId> halfedges_;
+};
+
+class Inspection {
+ public:
+  Inspection(const TinArrays& tin, std::span<const Point2> written, IsolatedVertices isolated)
+      : tin_(tin), written_(written), isolated_policy_(isolated) {}
+
+  std::vector<Violation> run() && {
+    check_lengths();
+    check_numbers();
+    check_triangles();
+    if (ids_exist_) {
+      fans_ = Fans(tin_.triangles, tin_.points.size());
+      check_edges();
+      check_fans();
+      check_constraints();
+      check_isolated();
+      if (plane_is_sound_) check_overlap(tin_.points, violation::kOverlap);
+      if (plane_is_sound_ && written_is_sound_) check_overlap(written_, violation::kOverlapInWritten);
+    }
+    if (!ids_exist_ || !plane_is_sound_) check_positions();
+    std::stable_sort(violations_.begin(), violations_.end(),
+                     [](const Violation& a, const Violation& b) { return a.code < b.code; });
+    return std::move(violations_);
+  }
+
+ private:
+  struct Finds {
+    std::size_t count = 0;
+    std::vector<std::size_t> first;
+    void add(std::size_t i) {
+      ++count;
+      if (first.size() < kListed) first.push_back(i);
+    }
+  };
+
+  // Indices in [0, count) for which `is_broken` holds, found on all threads.
+  template <class IsBroken>
+  static Finds find_broken(std::size_t count, const IsBroken& is_broken) {
+    std::vector<Finds> blocks((count + kBlock - 1) / kBlock);
+    for_each_block(count, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (is_broken(i)) blocks[begin / kBlock].add(i);
+      }
+    });
+    Finds all;
+    for (const Finds& block : blocks) {
+      all.count += block.count;
+      for (const std::size_t i : block.first) {
+        if (all.first.size() < kListed) all.first.push_back(i);
+      }
+    }
+    return all;
+  }
+
+  // True if nothing was broken.
+  template <class Describe>
+  bool report(int code, const Finds& finds, const Describe& describe) {
+    for (const std::size_t i : finds.first) violations_.push_back({code, describe(i)});
+    if (finds.count > finds.first.size()) {
+      violations_.push_back({code, "and " + std::to_string(finds.count - finds.first.size()) + " more"});
+    }
+    return finds.count == 0;
+  }
+
+  [[nodiscard]] std::string triangle_name(std::size_t t) const {
+    const Triangle& corners = tin_.triangles[t];
+    return "triangle " + std::to_string(t) + " (" + name(corners[0], corners[1]) + ", " + name(corners[2]) +
+           ")";
+  }
+  [[nodiscard]] std::string edge_name(std::size_t h) const {
+    return "edge " + name(fans_.origin(HalfedgeId{h}), fans_.target(HalfedgeId{h}));
+  }
+
+  void check_length(std::size_t length, std::size_t expected, const char* what) {
+    if (length == expected) return;
+    violations_.push_back({violation::kLengthsDiffer, std::to_string(length) + " " + what + " where " +
+                                                          std::to_string(expected) + " belong"});
+  }
+
+  void check_lengths() {
+    const std::size_t n = tin_.points.size();
+    const std::size_t halfedges = 3 * tin_.triangles.size();
+    check_length(tin_.heights.size(), n, "heights");
+    if (!tin_.twins.empty()) check_length(tin_.twins.size(), halfedges, "twins");
+    if (!tin_.kinds.empty()) check_length(tin_.kinds.size(), halfedges, "kinds");
+    if (!tin_.first_outgoing.empty()) check_length(tin_.first_outgoing.size(), n + 1, "starts of fans");
+    if (!written_.empty()) check_length(written_.size(), n, "written positions");
+    has_written_ = !written_.empty() && written_.size() == n;
+  }
+
+  void check_numbers() {
+    constexpr double kLimit = 1e100;
+    const auto sound = [](double x) { return std::abs(x) < kLimit; };
+    const auto broken = [&](std::size_t v) {
+      if (v < tin_.heights.size() && !sound(tin_.heights[v])) return true;
+      if (has_written_ && !(sound(written_[v].x) && sound(written_[v].y))) return true;
+      return !(sound(tin_.points[v].x) && sound(tin_.points[v].y));
+    };
+    plane_is_sound_ =
+        report(violation::kNotFinite, find_broken(tin_.points.size(), broken), [](std::size_t v) {
+          return "vertex " + std::to_string(v) +
+                 " has a coordinate or height that is not finite or too large";
+        });
+    numbers_are_sound_ = plane_is_sound_;
+  }
+
+  void check_triangles() {
+    const auto& triangles = tin_.triangles;
+    const auto ids_are_bad = [&](std::size_t t) {
+      const Triangle& c = triangles[t];
+      return c[0] == c[1] || c[1] == c[2] || c[2] == c[0] ||
+             std::any_of(c.begin(), c.end(), [&](VertexId v) { return v.index() >= tin_.points.size(); });
+    };
+    ids_exist_ =
+        report(violation::kBadTriangle, find_broken(triangles.size(), ids_are_bad), [&](std::size_t t) {
+          return triangle_name(t) + " repeats a vertex or names one that does not exist";
+        });
+    const auto out_of_order = [&](std::size_t t) {
+      const Triangle& c = triangles[t];
+      return c[0] > c[1] || c[0] > c[2] || (t > 0 && !(triangles[t - 1] < c));
+    };
+    report(violation::kNotCanonical, find_broken(triangles.size(), out_of_order), [&](std::size_t t) {
+      return triangle_name(t) + " does not start at its smallest vertex or is not above the one before it";
+    });
+    if (!ids_exist_ || !numbers_are_sound_) return;
+    plane_is_sound_ = check_turns(tin_.points, violation::kNotCounterClockwise, "in the plane");
+    if (has_written_) {
+      written_is_sound_ = check_turns(written_, violation::kTurnedInWritten, "in the written coordinates");
+    }
+  }
+
+  bool check_turns(std::span<const Point2> xy, int code, const char* where) {
+    const auto turned = [&](std::size_t t) {
+      const Triangle& c = tin_.triangles[t];
+      return orientation(xy[c[0].index()], xy[c[1].index()], xy[c[2].index()]) <= 0;
+    };
+    return report(code, find_broken(tin_.triangles.size(), turned), [&](std::size_t t) {
+      const Triangle& c = tin_.triangles[t];
+      const bool flat = orientation(xy[c[0].index()], xy[c[1].index()], xy[c[2].index()]) == 0;
+      return triangle_name(t) + (flat ? " is flat " : " is clockwise ") + where;
+    });
+  }
+
+  void check_edges() {
+    const std::size_t halfedges = 3 * tin_.triangles.size();
+    const auto repeats_an_edge = [&](std::size_t i) {
+      const HalfedgeId h{i};
+      return fans_.find(fans_.origin(h), fans_.target(h)) != h;
+    };
+    const bool once_a_side =
+        report(violation::kSameSide, find_broken(halfedges, repeats_an_edge), [&](std::size_t h) {
+          return "triangle " + std::to_string(h / 3) + " lies on the same side of " + edge_name(h) +
+                 " as another one";
+        });
+    plane_is_sound_ = plane_is_sound_ && once_a_side;
+    opposite_.resize(halfedges);
+    for_each_block(halfedges, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t h = begin; h < end; ++h) {
+        opposite_[h] = fans_.find(fans_.target(HalfedgeId{h}), fans_.origin(HalfedgeId{h}));
+      }
+    });
+    if (once_a_side && tin_.twins.size() == halfedges) {
+      const auto wrong = [&](std::size_t h) { return tin_.twins[h] != opposite_[h]; };
+      report(violation::kTwinWrong, find_broken(halfedges, wrong), [&](std::size_t h) {
+        return "halfedge " + std::to_string(h) + " (" + edge_name(h) + ") has a wrong twin";
+      });
+    }
+    if (tin_.kinds.size() == halfedges) {
+      const auto differ = [&](std::size_t h) {
+        return opposite_[h].index() < h && tin_.kinds[h] != tin_.kinds[opposite_[h].index()];
+      };
+      report(violation::kKindsDiffer, find_broken(halfedges, differ),
+             [&](std::size_t h) { return "the two sides of " + edge_name(h) + " differ in kind"; });
+    }
+  }
+
+  void check_fans() {
+    if (tin_.first_outgoing.size() != tin_.points.size() + 1) return;
+    std::vector<std::uint8_t> seen(3 * tin_.triangles.size(), 0);
+    const auto wrong = [&](std::size_t v) {
+      const std::size_t begin = tin_.first_outgoing[v], end = tin_.first_outgoing[v + 1];
+      if (end < begin || end > tin_.outgoing.size() || end - begin != fans_.of(VertexId{v}).size())
+        return true;
+      return !std::all_of(tin_.outgoing.begin() + begin, tin_.outgoing.begin() + end, [&](HalfedgeId h) {
+        return h.index() < seen.size() && fans_.origin(h) == VertexId{v} && seen[h.index()]++ == 0;
+      });
+    };
+    report(violation::kFanWrong, find_broken(tin_.points.size(), wrong), [](std::size_t v) {
+      return "vertex " + std::to_string(v) + " does not list exactly the halfedges that start at it";
+    });
+  }
+
+  void check_constraints() {
+    const std::size_t n = tin_.points.size();
+    const auto missing = [&](std::size_t i) {
+      const ConstraintEdge& e = tin_.constraints[i];
+      if (e.a.index() >= n || e.b.index() >= n) return true;
+      return !fans_.find(e.a, e.b).valid() && !fans_.find(e.b, e.a).valid();
+    };
+    report(violation::kConstraintNoEdge, find_broken(tin_.constraints.size(), missing), [&](std::size_t i) {
+      return "constraint edge " + name(tin_.constraints[i].a, tin_.constraints[i].b) +
+             " is no edge of a triangle";
+    });
+  }
+
+  void check_isolated() {
+    for (std::size_t v = 0; v < tin_.points.size(); ++v) {
+      if (fans_.of(VertexId{v}).empty()) isolated_.push_back(VertexId{v});
+    }
+    if (isolated_policy_ == IsolatedVertices::Allow) return;
+    Finds finds;
+    for (const VertexId v : isolated_) finds.add(v.index());
+    report(violation::kIsolatedVertex, finds,
+           [](std::size_t v) { return "vertex " + std::to_string(v) + " is in no triangle"; });
+  }
+
+  void check_overlap(std::span<const Point2> xy, int code) {
+    if (rim_.empty()) {
+      for (std::size_t h = 0; h < opposite_.size(); ++h) {
+        if (!opposite_[h].valid()) rim_.push_back({fans_.origin(HalfedgeId{h}), fans_.target(HalfedgeId{h})});
+      }
+    }
+    const bool written = code == violation::kOverlapInWritten;
+    const std::vector<RimFinding> found = sweep_rim(xy, rim_, isolated_);
+    Finds touching, overlapping;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      using Kind = RimFinding::Kind;
+      const Kind kind = found[i].kind;
+      if (kind == Kind::SamePosition && !written) continue;  // all of them are found by sorting
+      (written || kind == Kind::EdgesCross || kind == Kind::EdgeOnSurface ? overlapping : touching).add(i);
+    }
+    const auto describe = [&](std::size_t i) { return describe_finding(found[i]); };
+    report(violation::kVertexOnSurface, touching, describe);
+    report(code, overlapping, describe);
+    if (!written) plane_is_sound_ = found.empty();
+  }
+
+  static std::string describe_finding(const RimFinding& f) {
+    const std::string edge = "rim edge " + name(f.a.from, f.a.to);
+    switch (f.kind) {
+      case RimFinding::Kind::SamePosition:
+        break;
+      case RimFinding::Kind::VertexOnEdge:
+        return "vertex " + name(f.b.from) + " lies within " + edge;
+      case RimFinding::Kind::VertexOnSurface:
+        return "vertex " + name(f.b.from) + " lies on a triangle below " + edge;
+      case RimFinding::Kind::EdgesCross:
+        return edge + " crosses rim edge " + name(f.b.from, f.b.to);
+      case RimFinding::Kind::EdgeOnSurface:
+        return edge + " lies on triangles that are not its own, beside rim edge " + name(f.b.from, f.b.to);
+    }
+    return "vertices " + name(f.a.from, f.b.from) + " share a position";
+  }
+
+  void check_positions() {
+    std::vector<std::uint32_t> order;
+    for (std::size_t v = 0; v < tin_.points.size(); ++v) {
+      if (!std::isnan(tin_.points[v].x) && !std::isnan(tin_.points[v].y))
+        order.push_back(static_cast<std::uint32_t>(v));
+    }
+    tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::pair(tin_.points[a], a) < std::pair(tin_.points[b], b);
+    });
+    Finds finds;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (tin_.points[order[i]] == tin_.points[order[i - 1]]) finds.add(i);
+    }
+    report(violation::kSamePosition, finds, [&](std::size_t i) {
+      return "vertices " + std::to_string(order[i - 1]) + " and " + std::to_string(order[i]) +
+             " share a position";
+    });
+  }
+
+  const TinArrays& tin_;
+  std::span<const Point2> written_;
+  IsolatedVertices isolated_policy_;
+  bool has_written_ = false;
+  bool numbers_are_sound_ = false;
+  bool ids_exist_ = false;
+  bool plane_is_sound_ = false;
+  bool written_is_sound_ = false;
+  Fans fans_;
+  std::vector<HalfedgeId> opposite_;
+  std::vector<RimEdge> rim_;
+  std::vector<VertexId> isolated_;
+  std::vector<Violation> violations_;
+};
+
+}  // namespace
+
+std::vector<Violation> validate(const Tin& tin, std::span<const Point2> written_xy,
+                                IsolatedVertices isolated) {
+  return validate(tin.arrays(), written_xy, isolated);
+}
+
+std::vector<Violation> validate(const TinArrays& arrays, std::span<const Point2> written_xy,
+                                IsolatedVertices isolated) {
+  return Inspection(arrays, written_xy, isolated).run();
+}
+
+}  // namespace thalweg
