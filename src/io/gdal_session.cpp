@@ -1,5 +1,6 @@
 // A handler on GDAL's per-thread stack of error handlers: errors are kept until they are reset, warnings
 // until taken.
+// Warnings that nobody took go to the session around.
 #include "io/gdal_session.hpp"
 
 #include <cpl_error.h>
@@ -16,9 +17,12 @@ namespace thalweg {
 struct GdalSession::Messages {
   std::vector<std::string> errors;
   std::vector<std::string> warnings;
+  GdalSession* outer = nullptr;
 };
 
 namespace {
+
+thread_local GdalSession* innermost = nullptr;
 
 // A broken file can give a message a row: what is beyond these says nothing new.
 constexpr std::size_t kMostMessages = 8;
@@ -48,6 +52,7 @@ GdalSession::GdalSession() : messages_(std::make_unique<Messages>()) {
     if (severity == CE_Failure || severity == CE_Fatal) keep(messages->errors, text);
     if (severity == CE_Warning) keep(messages->warnings, text);
   };
+  messages_->outer = std::exchange(innermost, this);
   CPLPushErrorHandlerEx(handler, messages_.get());
   CPLErrorReset();
 }
@@ -55,6 +60,10 @@ GdalSession::GdalSession() : messages_(std::make_unique<Messages>()) {
 GdalSession::~GdalSession() {
   CPLPopErrorHandler();
   CPLErrorReset();
+  innermost = messages_->outer;
+  if (innermost == nullptr) return;
+  for (const std::string& warning : messages_->warnings)
+    keep(innermost->messages_->warnings, warning.c_str());
 }
 
 bool GdalSession::failed() const {

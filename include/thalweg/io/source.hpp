@@ -64,10 +64,10 @@ struct ReadOptions {
 struct ReadResult {
   Survey survey;
   CrsInfo crs;                      ///< of the survey's coordinates and heights
-  std::size_t points_read = 0;      ///< points that the sources hold, after `where`; valid cells of rasters
-  std::size_t outside_bbox = 0;     ///< of these (and of raster cells, valid or not) outside of the box
-  std::size_t nodata_skipped = 0;   ///< raster cells without data
-  std::size_t breaklines_read = 0;  ///< lines and rings in the survey: its lines' number
+  std::size_t points_read = 0;         ///< points that the sources hold, after `where`; of a raster: points in the box
+  std::size_t outside_bbox = 0;        ///< points outside of the box; of a raster: cells, valid or not
+  std::size_t nodata_skipped = 0;      ///< raster cells without data, in the box
+  std::size_t breaklines_read = 0;     ///< lines and rings that the sources hold, after `where`, in the box
   std::size_t breakline_vertices = 0;  ///< their vertices, the repeated one of a closed ring included
   std::size_t lines_outside_bbox = 0;  ///< lines and rings left out
   NodataRegion nodata;

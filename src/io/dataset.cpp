@@ -1,0 +1,110 @@
+// Datasets as GDAL opens them, and the choice of a layer.
+#include "io/dataset.hpp"
+
+#include "io/gdal_session.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <cpl_vsi.h>
+#include <ogrsf_frmts.h>
+
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+std::string list_layers(GDALDataset& dataset) {
+  std::string text;
+  for (OGRLayer* layer : dataset.GetLayers()) {
+    text += (text.empty() ? "" : ", ") + std::string(layer->GetName()) + " (" +
+            name_of_geometry(layer->GetGeomType()) + ")";
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string wanted(LayerUse use) {
+  return use == LayerUse::Points ? "points" : "lines or polygons";
+}
+
+std::string remedy(LayerUse use) {
+  return use == LayerUse::Points ? "; lines belong to --breaklines, --ridges or --valleys"
+                                 : "; points go before the output";
+}
+
+}  // namespace
+
+bool can_hold(OGRwkbGeometryType type, LayerUse use) {
+  switch (wkbFlatten(type)) {
+    case wkbUnknown:
+    case wkbGeometryCollection:
+      return true;
+    case wkbPoint:
+    case wkbMultiPoint:
+      return use == LayerUse::Points;
+    case wkbLineString:
+    case wkbMultiLineString:
+    case wkbPolygon:
+    case wkbMultiPolygon:
+    case wkbTriangle:
+    case wkbCircularString:
+    case wkbCompoundCurve:
+    case wkbCurvePolygon:
+    case wkbMultiCurve:
+    case wkbMultiSurface:
+    case wkbCurve:
+    case wkbSurface:
+      return use == LayerUse::Lines;
+    default:
+      return false;
+  }
+}
+
+std::string name_of_geometry(OGRwkbGeometryType type) {
+  return wkbFlatten(type) == wkbNone ? "no geometry" : OGRGeometryTypeToName(type);
+}
+
+GDALDatasetUniquePtr open_dataset(const std::string& path) {
+  GdalSession session;
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(
+      path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  if (dataset) return dataset;
+  VSIStatBufL stat;
+  const bool names_a_file = path.find(':') == std::string::npos || path.front() == '/';
+  if (names_a_file && VSIStatExL(path.c_str(), &stat, VSI_STAT_EXISTS_FLAG) != 0) {
+    throw Error(ErrorCode::NotFound, path + ": there is no such file");
+  }
+  throw Error(ErrorCode::Unreadable, path + " cannot be opened" + session.reason());
+}
+
+OGRLayer& choose_layer(GDALDataset& dataset, const SourceSpec& source, LayerUse use) {
+  const std::string layers = "; its layers are: " + list_layers(dataset);
+  if (!source.layer.empty()) {
+    OGRLayer* layer = dataset.GetLayerByName(source.layer.c_str());
+    if (layer == nullptr) {
+      throw Error(ErrorCode::NotFound, source.path + " has no layer " + source.layer + layers);
+    }
+    if (!can_hold(layer->GetGeomType(), use)) {
+      throw Error(ErrorCode::WrongGeometry, source.path + "|" + source.layer + " holds " +
+                                                name_of_geometry(layer->GetGeomType()) + ", not " +
+                                                wanted(use) + layers + remedy(use));
+    }
+    return *layer;
+  }
+  std::vector<OGRLayer*> fitting;
+  for (OGRLayer* layer : dataset.GetLayers()) {
+    if (can_hold(layer->GetGeomType(), use)) fitting.push_back(layer);
+  }
+  if (fitting.empty()) {
+    throw Error(ErrorCode::WrongGeometry,
+                source.path + " has no layer of " + wanted(use) + layers + remedy(use));
+  }
+  if (fitting.size() > 1) {
+    throw Error(ErrorCode::Usage, source.path + " has several layers of " + wanted(use) + "; name one as " +
+                                      source.path + "|layername=NAME" + layers);
+  }
+  return *fitting.front();
+}
+
+}  // namespace thalweg

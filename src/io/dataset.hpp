@@ -1,0 +1,34 @@
+#pragma once
+
+/// Datasets as GDAL opens them, and the choice of a layer.
+
+#include <thalweg/io/source.hpp>
+
+#include <gdal_priv.h>
+
+#include <string>
+
+namespace thalweg {
+
+/// Opens a file, virtual path or connection for reading, as a raster, as layers, or both.
+/// Throws: Error{NotFound}, Error{Unreadable} in GDAL's words.
+GDALDatasetUniquePtr open_dataset(const std::string& path);
+
+/// What a layer shall hold.
+enum class LayerUse {
+  Points,
+  Lines  ///< or polygons
+};
+
+/// The layer that the source names, or the only one that can hold what is wanted.
+/// Throws: Error{NotFound} if it is not there, Error{WrongGeometry} if it or none can hold what is wanted,
+/// Error{Usage} if several can; all of them list the layers that there are.
+OGRLayer& choose_layer(GDALDataset& dataset, const SourceSpec& source, LayerUse use);
+
+/// True if a layer of this type can hold what is wanted; layers of any geometry can.
+bool can_hold(OGRwkbGeometryType type, LayerUse use);
+
+/// "Line String" for people: "lines", "polygons", ...
+std::string name_of_geometry(OGRwkbGeometryType type);
+
+}  // namespace thalweg

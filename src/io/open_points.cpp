@@ -1,0 +1,69 @@
+// What kind of source of points a file is.
+#include "io/dataset.hpp"
+#include "io/gdal_session.hpp"
+#include "io/layer_reader.hpp"
+#include "io/raster_points.hpp"
+#include "io/source_reader.hpp"
+#include "io/text_points.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+bool has_point_layer(GDALDataset& dataset) {
+  for (OGRLayer* layer : dataset.GetLayers()) {
+    if (can_hold(layer->GetGeomType(), LayerUse::Points)) return true;
+  }
+  return false;
+}
+
+std::string list_subdatasets(GDALDataset& dataset) {
+  std::string list;
+  char** const entries = dataset.GetMetadata("SUBDATASETS");
+  for (char** entry = entries; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos || text.substr(0, equals).find("_NAME") == std::string_view::npos)
+      continue;
+    list += (list.empty() ? "" : ", ") + std::string(text.substr(equals + 1));
+  }
+  return list;
+}
+
+std::string extension_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of("./");
+  std::string extension = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
+std::unique_ptr<SourceReader> open_points(const SourceSpec& spec) {
+  const std::string extension = extension_of(spec.path);
+  if (extension == ".las" || extension == ".laz") {
+    throw Error(
+        ErrorCode::Unsupported,
+        spec.path + ": LAS files are not read; convert it to text first (pdal translate in.las out.csv)");
+  }
+  if (is_text(spec)) return open_text(spec);
+  GDALDatasetUniquePtr dataset = open_dataset(spec.path);
+  const bool has_raster = dataset->GetRasterCount() > 0;
+  if (!spec.layer.empty() || has_point_layer(*dataset) || (dataset->GetLayerCount() > 0 && !has_raster)) {
+    return open_layer_points(spec, std::move(dataset));
+  }
+  if (has_raster) return open_raster(spec, std::move(dataset));
+  const std::string parts = list_subdatasets(*dataset);
+  if (!parts.empty())
+    throw Error(ErrorCode::Usage, spec.path + " holds several rasters; name one of: " + parts);
+  throw Error(ErrorCode::EmptyInput, spec.path + " holds neither layers nor rasters");
+}
+
+}  // namespace thalweg

@@ -1,0 +1,17 @@
+#pragma once
+
+/// Points from elevation rasters.
+
+#include "io/source_reader.hpp"
+
+#include <gdal_priv.h>
+
+#include <memory>
+
+namespace thalweg {
+
+/// Throws: Error{Unsupported} for rasters without georeference, with rotated control points, or of complex
+/// numbers.
+std::unique_ptr<SourceReader> open_raster(const SourceSpec& spec, GDALDatasetUniquePtr dataset);
+
+}  // namespace thalweg

@@ -1,0 +1,256 @@
+// How the rows of a text file are to be understood.
+//
+// 1. The first row that is no comment shows the separator: of ; tab , the first that stands outside of
+// quotes, else
+//    blanks. Numbers between which both tabs and blanks stand are separated by runs of them.
+// 2. It is a header if it holds no number, or names x and y. If it holds numbers, the last comment before it
+// is the
+//    header if it has as many fields and names x and y (numpy, CloudCompare).
+// 3. Columns by name. If x and y are not both named, the first three columns are x, y, z, unless a name that
+// is
+//    known stands in another place than it says.
+#include "io/text_format.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+using Names = std::span<const std::string_view>;
+constexpr auto kXNames =
+    std::to_array<std::string_view>({"x", "lon", "long", "lng", "longitude", "easting", "east"});
+constexpr auto kYNames = std::to_array<std::string_view>({"y", "lat", "latitude", "northing", "north"});
+constexpr auto kLongitudes = std::to_array<std::string_view>({"lon", "long", "lng", "longitude"});
+constexpr auto kLatitudes = std::to_array<std::string_view>({"lat", "latitude"});
+constexpr auto kZNames =
+    std::to_array<std::string_view>({"z", "elev", "elevation", "height", "altitude", "alt"});
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view unquote(std::string_view field) {
+  field = trim(field);
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+    field = trim(field.substr(1, field.size() - 2));
+  return field;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+bool stands_outside_quotes(std::string_view row, char separator) {
+  bool quoted = false;
+  for (const char c : row) {
+    if (c == '"') quoted = !quoted;
+    if (c == separator && !quoted) return true;
+  }
+  return false;
+}
+
+char find_separator(std::string_view row) {
+  if (stands_outside_quotes(row, ';')) return ';';
+  if (stands_outside_quotes(row, '\t')) {
+    const std::vector<std::string_view> by_blanks = split_row(row, ' ');
+    const bool numbers = std::all_of(by_blanks.begin(), by_blanks.end(),
+                                     [](std::string_view field) { return to_number(field).has_value(); });
+    return numbers && by_blanks.size() > split_row(row, '\t').size() ? ' ' : '\t';
+  }
+  return stands_outside_quotes(row, ',') ? ',' : ' ';
+}
+
+std::optional<std::size_t> find_name(const std::vector<std::string>& names, Names wanted) {
+  for (const std::string_view name : wanted) {
+    for (std::size_t column = 0; column < names.size(); ++column) {
+      if (lower(names[column]) == name) return column;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> find_field(const std::vector<std::string>& names, const std::string& field) {
+  const auto exact = std::find(names.begin(), names.end(), field);
+  if (exact != names.end()) return static_cast<std::size_t>(exact - names.begin());
+  const std::string wanted = lower(field);
+  const std::string_view only = wanted;
+  return find_name(names, std::span(&only, 1));
+}
+
+bool names_x_and_y(const std::vector<std::string>& names) {
+  return find_name(names, kXNames) && find_name(names, kYNames);
+}
+
+std::vector<std::string> to_names(const std::vector<std::string_view>& fields) {
+  std::vector<std::string> names(fields.begin(), fields.end());
+  for (std::size_t column = 0; column < names.size(); ++column) {
+    if (names[column].empty()) names[column] = "field_" + std::to_string(column + 1);
+  }
+  return names;
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// The first row that is passed over by nothing, and the last comment before it.
+struct FirstRow {
+  std::string_view row;
+  std::string_view comment;
+  std::size_t rows_before = 0;
+};
+
+FirstRow find_first_row(std::string_view rows, const std::string& name) {
+  FirstRow first;
+  while (!rows.empty()) {
+    const std::size_t end = rows.find('\n');
+    const std::string_view row = rows.substr(0, end);
+    rows.remove_prefix(std::min(rows.size(), end + 1));
+    if (!is_passed_over(row)) {
+      first.row = row;
+      return first;
+    }
+    ++first.rows_before;
+    if (!trim(row).empty()) first.comment = trim(row);
+  }
+  throw Error(ErrorCode::EmptyInput, name + " holds no rows with points");
+}
+
+/// Sets names and header_rows. Returns true if the names stand in the file.
+bool find_names(const FirstRow& first, TextFormat& format) {
+  const std::vector<std::string_view> fields = split_row(first.row, format.separator);
+  format.header_rows = first.rows_before;
+  const auto is_number = [](std::string_view field) { return to_number(field).has_value(); };
+  format.names = to_names(fields);
+  if (std::none_of(fields.begin(), fields.end(), is_number) || names_x_and_y(format.names)) {
+    ++format.header_rows;
+    return true;
+  }
+  std::string_view comment = first.comment;
+  while (!comment.empty() && (comment.front() == '#' || comment.front() == '/')) comment.remove_prefix(1);
+  const std::vector<std::string> commented = to_names(split_row(comment, format.separator));
+  if (commented.size() == fields.size() && names_x_and_y(commented)) {
+    format.names = commented;
+    return true;
+  }
+  format.names = to_names(std::vector<std::string_view>(fields.size()));
+  return false;
+}
+
+void take_first_columns(TextFormat& format, bool named, const std::string& name) {
+  const std::array<Names, 3> known = {kXNames, kYNames, kZNames};
+  for (std::size_t axis = 0; axis < known.size(); ++axis) {
+    const std::optional<std::size_t> column = find_name(format.names, known[axis]);
+    if (column && *column != axis) {
+      throw Error(ErrorCode::BadFormat, name + ": the columns of x and y cannot be told from the header (" +
+                                            list(format.names) + "); name them x and y");
+    }
+  }
+  format.x = 0;
+  format.y = 1;
+  if (named)
+    format.notes.push_back(name + ": the first columns (" + list(format.names) + ") are taken as x, y, z");
+}
+
+void find_columns(TextFormat& format, bool named, const std::string& name, const std::string& z_field) {
+  const std::optional<std::size_t> x = find_name(format.names, kXNames);
+  const std::optional<std::size_t> y = find_name(format.names, kYNames);
+  if (format.names.size() < 2) {
+    throw Error(ErrorCode::BadFormat,
+                name + " row " + std::to_string(format.header_rows + (named ? 0 : 1)) +
+                    " has one column; points need x, y and z, separated by , ; tab or blanks");
+  }
+  if (!z_field.empty()) {
+    format.z = find_field(format.names, z_field);
+    format.has_z_field = format.z.has_value();
+  }
+  if (x && y) {
+    format.x = *x;
+    format.y = *y;
+    format.is_geographic =
+        x == find_name(format.names, kLongitudes) && y == find_name(format.names, kLatitudes);
+    if (!format.z) format.z = find_name(format.names, kZNames);
+    const bool first_two = *x + *y == 1;
+    if (!format.z && first_two && format.names.size() == 3) {
+      format.z = 2;
+      format.notes.push_back(name + ": column " + format.names[2] + " is taken as z");
+    }
+    return;
+  }
+  take_first_columns(format, named, name);
+  if (!format.z && format.names.size() >= 3) format.z = 2;
+}
+
+}  // namespace
+
+bool is_passed_over(std::string_view row) {
+  row = trim(row);
+  return row.empty() || row.front() == '#' || row.substr(0, 2) == "//";
+}
+
+std::vector<std::string_view> split_row(std::string_view row, char separator) {
+  row = separator == '\t' ? row.substr(0, row.find_last_not_of("\r\n") + 1) : trim(row);
+  std::vector<std::string_view> fields;
+  std::size_t begin = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i <= row.size(); ++i) {
+    if (i < row.size() && row[i] == '"') quoted = !quoted;
+    const bool ends =
+        i == row.size() || (!quoted && (separator == ' ' ? is_blank(row[i]) : row[i] == separator));
+    if (!ends) continue;
+    if (separator != ' ' || i > begin) fields.push_back(unquote(row.substr(begin, i - begin)));
+    begin = i + 1;
+  }
+  return fields;
+}
+
+std::optional<double> to_number(std::string_view text) {
+  text = trim(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+TextFormat detect_format(std::string_view rows, const std::string& name, const std::string& z_field,
+                         HeightRule heights) {
+  constexpr std::size_t kSniffed = 4096;
+  if (rows.substr(0, kSniffed).find('\0') != std::string_view::npos) {
+    throw Error(ErrorCode::BadFormat,
+                name + " is no text in UTF-8 or ASCII (it holds zero bytes); save it as UTF-8");
+  }
+  const FirstRow first = find_first_row(rows, name);
+  TextFormat format;
+  format.separator = find_separator(first.row);
+  const bool named = find_names(first, format);
+  find_columns(format, named, name, z_field);
+  if (!format.z && heights == HeightRule::Required) {
+    throw Error(ErrorCode::MissingHeight, name + " has no column with heights (its columns: " +
+                                              list(format.names) + "); name one z, or give --z-field NAME");
+  }
+  return format;
+}
+
+}  // namespace thalweg

@@ -1,0 +1,163 @@
+// Points from tables of text.
+//
+// 1. The first block of rows tells the format and, with a condition, the types of the columns.
+// 2. Each row is parsed in place in its block; rows that do not parse are passed over (blank, comment), or
+// explained. The CRS stands in a .prj file of the same name, where there is one.
+#include "io/text_points.hpp"
+
+#include "io/gdal_session.hpp"
+#include "io/point_collector.hpp"
+#include "io/row_filter.hpp"
+#include "io/row_parser.hpp"
+#include "io/spatial_reference.hpp"
+#include "io/text_blocks.hpp"
+#include "io/text_format.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+bool ends_with(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char a, char b) {
+           return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
+         });
+}
+
+std::string without_gz(const std::string& path) {
+  return ends_with(path, ".gz") ? path.substr(0, path.size() - 3) : path;
+}
+
+/// The path under which GDAL gives the text itself.
+std::string virtual_path(const std::string& path) {
+  const bool plain_gz = ends_with(path, ".gz") && path.find("/vsigzip/") == std::string::npos;
+  return plain_gz ? "/vsigzip/" + path : path;
+}
+
+/// True if GDAL knows the file as a raster of another kind than a list of points.
+bool is_raster(const std::string& path) {
+  GdalSession session;
+  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  return driver != nullptr && std::string_view(GDALGetDriverShortName(driver)) != "XYZ";
+}
+
+class TextPoints : public SourceReader {
+ public:
+  explicit TextPoints(const SourceSpec& spec) : SourceReader(spec), blocks_(virtual_path(spec.path), name()) {
+    const std::string path = without_gz(spec.path);
+    const std::size_t dot = path.find_last_of("./");
+    if (dot == std::string::npos || path[dot] != '.') return;
+    const std::string prj = path.substr(0, dot) + ".prj";
+    VSIStatBufL stat;
+    if (VSIStatExL(prj.c_str(), &stat, VSI_STAT_EXISTS_FLAG) == 0) set_reference(parse_reference(prj));
+  }
+
+  void read(ReadContext& run, PlaneTransform& transform) override {
+    std::string_view block = without_byte_order_mark(blocks_.next());
+    const TextFormat format = detect_format(block, name(), run.options.z_field, run.options.heights);
+    take_format(run, format, block);
+    const RowParser parser(format, name(), run.options.heights);
+    PointCollector points(run, transform);
+    rows_to_skip_ = format.header_rows;
+    const auto rows = static_cast<double>(std::count(block.begin(), block.end(), '\n'));
+    expect_points(run.result.survey.points,
+                  std::max(rows, rows * blocks_.size() / static_cast<double>(block.size())));
+    while (!block.empty()) {
+      read_block(block, parser, points);
+      run.advance(blocks_.fraction());
+      block = blocks_.next();
+    }
+    points.finish();
+  }
+
+ private:
+  static std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
+  }
+
+  void take_format(ReadContext& run, const TextFormat& format, std::string_view sample) {
+    for (const std::string& note : format.notes) run.note(note);
+    if (format.is_geographic && !run.result.crs.known) {
+      run.note(
+          name() +
+          " has columns of longitude and latitude, but no CRS is known: they are taken as planar metres; "
+          "give --a-crs EPSG:4326 if they are degrees");
+    }
+    if (!run.options.z_field.empty()) {
+      run.z_field.taken |= format.has_z_field;
+      if (!format.has_z_field)
+        run.z_field.refusals.push_back(name() + " has no column " + run.options.z_field);
+    }
+    if (run.options.where.empty()) return;
+    try {
+      filter_.emplace(format, sample, run.options.where, name());
+      run.where.taken = true;
+    } catch (const Error& error) {
+      run.where.refusals.emplace_back(error.what());
+    }
+  }
+
+  void read_block(std::string_view block, const RowParser& parser, PointCollector& points) {
+    const char* p = block.data();
+    const char* const end = p + block.size();
+    while (p != end) {
+      const char* const row_end =
+          static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+      const std::string_view row(p, static_cast<std::size_t>(row_end - p));
+      p = row_end + 1;
+      ++row_number_;
+      if (rows_to_skip_ > 0) {
+        --rows_to_skip_;
+        continue;
+      }
+      std::optional<RowParser::Coordinates> xyz = parser.parse(row.data(), row_end);
+      if (!xyz) {
+        if (is_passed_over(row)) continue;
+        if (filter_ && !filter_->accepts(row, row_number_)) continue;
+        xyz = parser.parse_or_explain(row, row_number_);
+      } else if (filter_ && !filter_->accepts(row, row_number_)) {
+        continue;
+      }
+      points.add({(*xyz)[0], (*xyz)[1]}, (*xyz)[2]);
+    }
+  }
+
+  TextBlocks blocks_;
+  std::optional<RowFilter> filter_;
+  std::size_t rows_to_skip_ = 0;
+  std::size_t row_number_ = 0;
+};
+
+}  // namespace
+
+bool is_text(const SourceSpec& spec) {
+  if (spec.path.find("/vsistdin") != std::string::npos) return true;
+  const std::string path = without_gz(spec.path);
+  for (const std::string_view extension : {".csv", ".tsv", ".xyz"}) {
+    if (ends_with(path, extension)) return true;
+  }
+  for (const std::string_view extension : {".txt", ".asc", ".dat"}) {
+    if (ends_with(path, extension)) return !is_raster(virtual_path(spec.path));
+  }
+  return false;
+}
+
+std::unique_ptr<SourceReader> open_text(const SourceSpec& spec) {
+  return std::make_unique<TextPoints>(spec);
+}
+
+}  // namespace thalweg
