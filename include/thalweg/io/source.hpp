@@ -63,8 +63,9 @@ struct ReadOptions {
 /// The survey, and what happened on the way to it.
 struct ReadResult {
   Survey survey;
-  CrsInfo crs;                      ///< of the survey's coordinates and heights
-  std::size_t points_read = 0;         ///< points that the sources hold, after `where`; of a raster: points in the box
+  CrsInfo crs;  ///< of the survey's coordinates and heights
+  std::size_t points_read =
+      0;  ///< points that the sources hold, after `where`; of a raster: points in the box
   std::size_t outside_bbox = 0;        ///< points outside of the box; of a raster: cells, valid or not
   std::size_t nodata_skipped = 0;      ///< raster cells without data, in the box
   std::size_t breaklines_read = 0;     ///< lines and rings that the sources hold, after `where`, in the box
