@@ -48,6 +48,19 @@ bool recognises_ply(std::string_view head, const std::string&) {
   return starts_with(head, "ply\n") || starts_with(head, "ply\r");
 }
 
+bool recognises_2dm(std::string_view head, const std::string&) {
+  return starts_with(head, "MESH2D");
+}
+
+bool recognises_gpkg(std::string_view head, const std::string&) {
+  return starts_with(head, std::string_view("SQLite format 3\0", 16));
+}
+
+// OBJ has no signature.
+bool recognises_obj(std::string_view, const std::string& path) {
+  return same_word(std::filesystem::path(path).extension().string(), ".obj");
+}
+
 }  // namespace
 
 CreationOptions::CreationOptions(const std::vector<std::string>& pairs, const FormatInfo& format) {
@@ -96,12 +109,33 @@ std::vector<std::string> CreationOptions::list(std::string_view key) const {
 }
 
 std::span<const TinFormat> tin_format_table() {
+  using Crs = TinFormat::Crs;
   static const std::vector<TinFormat> table = {
-      {{"PLY", "Polygon file format, binary little-endian", {".ply"}, false, true, {"EDGES=YES|NO"}},
-       TinFormat::Crs::InFile,
+      {{"PLY", "Polygon file format (binary)", {".ply"}, true, true, {"EDGES=YES|NO"}},
+       Crs::InFile,
        write_ply,
        recognises_ply,
-       nullptr},
+       read_ply},
+      {{"2DM", "SMS mesh", {".2dm"}, true, true, {"EDGES=YES|NO"}},
+       Crs::InSidecar,
+       write_2dm,
+       recognises_2dm,
+       read_2dm},
+      {{"OBJ", "Wavefront object", {".obj"}, true, true, {"EDGES=YES|NO"}},
+       Crs::InSidecar,
+       write_obj,
+       recognises_obj,
+       read_obj},
+      {{"GPKG",
+        "GeoPackage layers",
+        {".gpkg"},
+        true,
+        true,
+        {"LAYERS=triangles,edges,vertices,breaklines,conflicts", "SPATIAL_INDEX=YES|NO"}},
+       Crs::InFile,
+       write_gpkg,
+       recognises_gpkg,
+       read_gpkg_tin},
   };
   return table;
 }

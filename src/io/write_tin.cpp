@@ -3,13 +3,19 @@
 // A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a
 // NAME.prj that lies there already would be taken for its own: it has to go.
 #include "io/file_writer.hpp"
+#include "io/gdal_session.hpp"
+#include "io/spatial_reference.hpp"
 #include "io/tin_format.hpp"
 
 #include <thalweg/base/error.hpp>
 
+#include <cpl_conv.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
+#include <memory>
 
 namespace thalweg {
 
@@ -61,6 +67,34 @@ void check_sizes(const TinView& view) {
   }
 }
 
+// Empty if the version of WKT cannot express the reference.
+std::string export_wkt(const OGRSpatialReference& reference, const char* version) {
+  const std::array<const char*, 2> options = {version, nullptr};
+  char* text = nullptr;
+  const OGRErr failed = reference.exportToWkt(&text, options.data());
+  const std::unique_ptr<char, void (*)(void*)> owner(text, CPLFree);
+  return failed != OGRERR_NONE || text == nullptr ? std::string() : std::string(text);
+}
+
+// WKT 1 is what most programs expect in a .prj.
+std::string prj_text(const std::string& definition) {
+  const GdalSession quiet;
+  const OGRSpatialReference reference = parse_reference(definition);
+  const std::string wkt = export_wkt(reference, "FORMAT=WKT1_GDAL");
+  return wkt.empty() ? export_wkt(reference, "FORMAT=WKT2_2019") : wkt;
+}
+
+void write_sidecar(const std::string& path, const TinView& view, PendingOutputs& pending, Overwrite mode) {
+  const std::string& definition = view.crs_wkt.empty() ? view.crs_authority : view.crs_wkt;
+  if (definition.empty()) {
+    pending.remove_stale(path, mode);
+    return;
+  }
+  FileWriter file(pending.add(path, mode), path);
+  file.text(prj_text(definition) + "\n");
+  file.close();
+}
+
 }  // namespace
 
 void check_write_options(const std::string& path, const WriteOptions& options) {
@@ -75,6 +109,7 @@ void write_tin(const std::string& path, const TinView& view, const WriteOptions&
   const CreationOptions creation(options.creation_options, format.info);
   progress.start_phase("write " + format.info.name);
   const std::string written = pending.add(path, mode);
+  if (format.crs == TinFormat::Crs::InSidecar) write_sidecar(sidecar_path(path), view, pending, mode);
   format.write({written, path, view, creation, progress});
   progress.advance(1);
 }

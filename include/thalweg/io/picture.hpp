@@ -18,11 +18,11 @@ struct PictureScene {
   const Tin& tin;
   double horizontal_metres_per_unit = 1;
   double vertical_metres_per_unit = 1;
-  std::span<const std::uint8_t> pits_before;  ///< one a vertex: interior pit of the Delaunay TIN
-  std::span<const std::uint8_t> pits_after;   ///< one a vertex: interior pit of this TIN
-  std::span<const std::array<VertexId, 2>>
-      flipped;  ///< edges of this TIN that the Delaunay TIN does not have
-  std::string title;
+  std::span<const std::uint8_t> pits_before = {};  ///< one a vertex: interior pit of the Delaunay TIN
+  std::span<const std::uint8_t> pits_after = {};   ///< one a vertex: interior pit of this TIN
+  std::span<const std::array<VertexId, 2>> flipped =
+      {};  ///< edges of this TIN that the Delaunay TIN does not have
+  std::string title = {};
   int width_px = 1600;  ///< of the whole picture; PDF and SVG have the same size in points
 };
 

@@ -18,18 +18,19 @@ namespace thalweg {
 /// A TIN and what is known about it. Spans may be empty (not known), else they have one value an element.
 struct TinView {
   const Tin& tin;
-  std::span<const Point2> written_xy;  ///< coordinates to write instead of tin.points(): those that came in
-  std::string crs_wkt;                 ///< CRS of the written coordinates, or empty
-  std::string crs_authority;           ///< "EPSG:n", or empty
-  std::span<const std::uint8_t> is_pit;
-  std::span<const std::uint8_t> vertex_source;  ///< 0 point, 1 line vertex, 2 crossing
-  std::span<const std::uint16_t> triangle_orders;
-  std::span<const Conflict> conflicts;
+  std::span<const Point2> written_xy =
+      {};                          ///< coordinates to write instead of tin.points(): those that came in
+  std::string crs_wkt = {};        ///< CRS of the written coordinates, or empty
+  std::string crs_authority = {};  ///< "EPSG:n", or empty
+  std::span<const std::uint8_t> is_pit = {};
+  std::span<const std::uint8_t> vertex_source = {};  ///< 0 point, 1 line vertex, 2 crossing
+  std::span<const std::uint16_t> triangle_orders = {};
+  std::span<const Conflict> conflicts = {};
 };
 
 struct WriteOptions {
-  std::string format;  ///< a name of `tin_formats`, any case; empty: by the path's extension
-  std::vector<std::string> creation_options;  ///< "KEY=VALUE", any case of key
+  std::string format = {};  ///< a name of `tin_formats`, any case; empty: by the path's extension
+  std::vector<std::string> creation_options = {};  ///< "KEY=VALUE", any case of key
 };
 
 /// Throws what `write_tin` would throw for a format, extension or creation option that is not known: so that a

@@ -1,0 +1,238 @@
+// GeoPackage layers of a TIN, by GDAL.
+//
+// 1. One transaction; SQLite's own journal and syncs are off, because the file is a temporary one that is
+// flushed as a
+//    whole before it gets its name.
+// 2. Features and geometries are made once a layer and refilled.
+// 3. GDAL's close returns nothing: what it said while closing decides whether the file is whole.
+// The date of last change in the file is fixed, so that equal input gives equal bytes.
+#include "io/edge_chains.hpp"
+#include "io/gdal_session.hpp"
+#include "io/spatial_reference.hpp"
+#include "io/tin_format.hpp"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+
+namespace thalweg {
+
+namespace {
+
+struct Field {
+  const char* name;
+  OGRFieldType type;
+};
+
+const char* source_word(std::uint8_t source) {
+  constexpr std::array<const char*, 3> kWords = {"point", "line vertex", "crossing"};
+  return source < kWords.size() ? kWords[source] : "unknown";
+}
+
+const char* conflict_word(Conflict::Kind kind) {
+  switch (kind) {
+    case Conflict::Kind::DuplicatePoint:
+      return "duplicate point";
+    case Conflict::Kind::PointOnLine:
+      return "point on line";
+    case Conflict::Kind::LineVertex:
+      return "line vertex";
+    case Conflict::Kind::Crossing:
+      return "crossing";
+  }
+  return "unknown";
+}
+
+class GpkgWriter {
+ public:
+  explicit GpkgWriter(const TinWriteJob& job)
+      : job_(job),
+        tin_(job.view.tin),
+        journal_("OGR_SQLITE_JOURNAL", "OFF", false),
+        synchronous_("OGR_SQLITE_SYNCHRONOUS", "OFF", false),
+        date_("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z", false) {
+    if (!job.view.crs_wkt.empty())
+      reference_ = parse_reference(job.view.crs_wkt);
+    else if (!job.view.crs_authority.empty())
+      reference_ = parse_reference(job.view.crs_authority);
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+    if (driver == nullptr)
+      throw Error(ErrorCode::Unsupported, "this GDAL has no GPKG driver; write another format");
+    dataset_.reset(driver->Create(job.path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    if (!dataset_ || dataset_->StartTransaction() != OGRERR_NONE) fail();
+    session_.reset();
+  }
+
+  void write() {
+    const std::vector<std::string> layers = job_.options.list("LAYERS");
+    const auto wanted = [&](const char* name) {
+      return std::find(layers.begin(), layers.end(), name) != layers.end();
+    };
+    if (wanted("triangles")) write_triangles();
+    if (wanted("edges")) write_edges();
+    if (wanted("vertices")) write_vertices();
+    if (wanted("breaklines")) write_breaklines();
+    if (wanted("conflicts")) write_conflicts();
+    if (dataset_->CommitTransaction() != OGRERR_NONE) fail();
+    dataset_.reset();
+    if (session_.failed()) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() {
+    throw Error(ErrorCode::WriteFailed,
+                job_.target + ": could not be written whole" + session_.reason() +
+                    "; free some space or choose another place; no partial file is left");
+  }
+
+  void create_layer(const char* name, OGRwkbGeometryType type, std::initializer_list<Field> fields) {
+    CPLStringList options;
+    options.SetNameValue("SPATIAL_INDEX", job_.options.enabled("SPATIAL_INDEX") ? "YES" : "NO");
+    layer_ = dataset_->CreateLayer(name, reference_ ? &*reference_ : nullptr, type, options.List());
+    if (layer_ == nullptr) fail();
+    for (const Field& field : fields) {
+      OGRFieldDefn definition(field.name, field.type);
+      if (layer_->CreateField(&definition) != OGRERR_NONE) fail();
+    }
+    feature_ = std::make_unique<OGRFeature>(layer_->GetLayerDefn());
+    job_.progress.start_phase(std::string("write layer ") + name);
+  }
+
+  void create_feature(std::size_t row, std::size_t count) {
+    constexpr std::size_t kProgressStep = 1U << 12U;
+    if (row % kProgressStep == 0)
+      job_.progress.advance(static_cast<double>(row) / static_cast<double>(count));
+    feature_->SetFID(OGRNullFID);
+    if (layer_->CreateFeature(feature_.get()) != OGRERR_NONE) fail();
+  }
+
+  // Gives the layer's one feature a geometry, to be refilled for each row.
+  template <class Geometry>
+  Geometry* adopt(std::unique_ptr<Geometry> geometry) {
+    Geometry* const plain = geometry.get();
+    feature_->SetGeometryDirectly(geometry.release());
+    return plain;
+  }
+
+  void set_point(OGRSimpleCurve& curve, int i, VertexId v) const {
+    const Point2 p = job_.xy()[v.index()];
+    curve.setPoint(i, p.x, p.y, tin_.height(v));
+  }
+
+  void write_triangles() {
+    create_layer("triangles", wkbPolygon25D,
+                 {{"a", OFTInteger64}, {"b", OFTInteger64}, {"c", OFTInteger64}, {"order", OFTInteger}});
+    auto polygon = std::make_unique<OGRPolygon>();
+    auto* const ring = new OGRLinearRing;
+    ring->setNumPoints(4);
+    polygon->addRingDirectly(ring);
+    polygon->set3D(TRUE);
+    adopt(std::move(polygon));
+    for (std::size_t t = 0; t < tin_.triangle_count(); ++t) {
+      const Triangle& triangle = tin_.triangle(TriangleId{t});
+      for (int i = 0; i < 4; ++i) set_point(*ring, i, triangle[static_cast<std::size_t>(i) % 3]);
+      for (int i = 0; i < 3; ++i)
+        feature_->SetField(i, static_cast<GIntBig>(triangle[static_cast<std::size_t>(i)].value()));
+      if (!job_.view.triangle_orders.empty())
+        feature_->SetField(3, static_cast<int>(job_.view.triangle_orders[t]));
+      create_feature(t, tin_.triangle_count());
+    }
+  }
+
+  void write_edges() {
+    create_layer("edges", wkbLineString25D,
+                 {{"a", OFTInteger64}, {"b", OFTInteger64}, {"kind", OFTString}, {"kind_bits", OFTInteger}});
+    OGRLineString* const line = adopt(std::make_unique<OGRLineString>());
+    line->setNumPoints(2);
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < tin_.halfedge_count(); ++i) {
+      const HalfedgeId h{i};
+      if (!tin_.represents_edge(h)) continue;
+      const auto [a, b] = std::minmax({tin_.origin(h), tin_.target(h)});
+      set_point(*line, 0, a);
+      set_point(*line, 1, b);
+      feature_->SetField(0, static_cast<GIntBig>(a.value()));
+      feature_->SetField(1, static_cast<GIntBig>(b.value()));
+      feature_->SetField(2, kind_words(tin_.kind(h)).c_str());
+      feature_->SetField(3, static_cast<int>(tin_.kind(h)));
+      create_feature(row++, tin_.edge_count());
+    }
+  }
+
+  void write_vertices() {
+    create_layer("vertices", wkbPoint25D,
+                 {{"id", OFTInteger64}, {"is_pit", OFTInteger}, {"source", OFTString}});
+    OGRPoint* const point = adopt(std::make_unique<OGRPoint>(0, 0, 0));
+    for (std::size_t v = 0; v < tin_.vertex_count(); ++v) {
+      point->setX(job_.xy()[v].x);
+      point->setY(job_.xy()[v].y);
+      point->setZ(tin_.heights()[v]);
+      feature_->SetField(0, static_cast<GIntBig>(v));
+      if (!job_.view.is_pit.empty()) feature_->SetField(1, job_.view.is_pit[v] != 0 ? 1 : 0);
+      if (!job_.view.vertex_source.empty()) feature_->SetField(2, source_word(job_.view.vertex_source[v]));
+      create_feature(v, tin_.vertex_count());
+    }
+  }
+
+  void write_breaklines() {
+    create_layer("breaklines", wkbLineString25D, {{"kind", OFTString}, {"kind_bits", OFTInteger}});
+    OGRLineString* const line = adopt(std::make_unique<OGRLineString>());
+    const std::vector<ConstraintEdge> edges = tin_.constraint_edges();
+    const std::vector<EdgeChain> chains = chain_edges(edges);
+    for (std::size_t row = 0; row < chains.size(); ++row) {
+      const std::vector<VertexId>& vertices = chains[row].vertices;
+      line->setNumPoints(static_cast<int>(vertices.size()));
+      for (std::size_t i = 0; i < vertices.size(); ++i) set_point(*line, static_cast<int>(i), vertices[i]);
+      feature_->SetField(0, kind_words(chains[row].kind).c_str());
+      feature_->SetField(1, static_cast<int>(chains[row].kind));
+      create_feature(row, chains.size());
+    }
+  }
+
+  void write_conflicts() {
+    create_layer("conflicts", wkbPoint25D,
+                 {{"kind", OFTString},
+                  {"z_a", OFTReal},
+                  {"z_b", OFTReal},
+                  {"z_used", OFTReal},
+                  {"source_a", OFTString},
+                  {"source_b", OFTString}});
+    OGRPoint* const point = adopt(std::make_unique<OGRPoint>(0, 0, 0));
+    for (std::size_t row = 0; row < job_.view.conflicts.size(); ++row) {
+      const Conflict& conflict = job_.view.conflicts[row];
+      point->setX(conflict.xy.x);
+      point->setY(conflict.xy.y);
+      point->setZ(conflict.z_used);
+      feature_->SetField(0, conflict_word(conflict.kind));
+      feature_->SetField(1, conflict.z_a);
+      feature_->SetField(2, conflict.z_b);
+      feature_->SetField(3, conflict.z_used);
+      feature_->SetField(4, conflict.source_a.c_str());
+      feature_->SetField(5, conflict.source_b.c_str());
+      create_feature(row, job_.view.conflicts.size());
+    }
+  }
+
+  const TinWriteJob& job_;
+  const Tin& tin_;
+  GdalSession session_;
+  CPLConfigOptionSetter journal_, synchronous_, date_;
+  std::optional<OGRSpatialReference> reference_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+  std::unique_ptr<OGRFeature> feature_;
+};
+
+}  // namespace
+
+void write_gpkg(const TinWriteJob& job) {
+  GpkgWriter(job).write();
+}
+
+}  // namespace thalweg
