@@ -50,6 +50,10 @@ void add_sites(Dice& dice, Scene& scene, int count, int range) {
   }
 }
 
+bool all_collinear(const std::vector<Site>& sites) {
+  return std::all_of(sites.begin(), sites.end(), [&](Site s) { return turn(sites[0], sites[1], s) == 0; });
+}
+
 bool tour_is_simple_after_uncrossing(const Scene& scene, std::vector<int>& tour) {
   const std::size_t n = tour.size();
   for (int rounds = 0; rounds < 1000; ++rounds) {
@@ -146,6 +150,7 @@ Scene random_lattice_scene(Dice& dice, const SceneOptions& options) {
     std::swap(lattice[i - 1], lattice[static_cast<std::size_t>(dice.between(0, static_cast<int>(i) - 1))]);
   }
   lattice.resize(std::min(lattice.size(), static_cast<std::size_t>(count)));
+  if (all_collinear(lattice)) return random_lattice_scene(dice, options);
   Scene scene;
   scene.sites = lattice;
   add_constraints(dice, scene, options.constraints);

@@ -72,6 +72,8 @@ std::string defect(const Scene& scene) {
   }
   std::vector<int> degree(scene.sites.size(), 0);
   for (const auto& [a, b] : scene.boundary) {
+    if (std::count(scene.boundary.begin(), scene.boundary.end(), Edge{a, b}) > 1)
+      return "boundary edge " + name({a, b}) + " is given twice";
     if (!scene.constrained(a, b)) return "boundary edge " + name({a, b}) + " is no constraint";
     ++degree[static_cast<std::size_t>(a)];
     ++degree[static_cast<std::size_t>(b)];

@@ -1,0 +1,109 @@
+// Laws that hold triangle by triangle, for the oracle itself, on random scenes.
+#include <support/oracle/law_testing.hpp>
+#include <support/oracle/path_by_slabs.hpp>
+#include <support/oracle/triangulations.hpp>
+
+#include <bit>
+
+namespace thalweg::oracle {
+namespace {
+
+constexpr auto index(Definition d) {
+  return static_cast<std::size_t>(d);
+}
+
+bool within(SiteSet inner, SiteSet outer) {
+  return (inner & ~outer) == 0;
+}
+
+// Lemma 1: what a weaker definition counts, each stronger one counts too, along both chains.
+TEST(OracleTriangleLaws, Lemma1) {
+  using enum Definition;
+  constexpr std::array<std::pair<Definition, Definition>, 8> kInclusions{{{Pathcon, Std},
+                                                                          {SeesTriang, Pathcon},
+                                                                          {SeesVtx, SeesTriang},
+                                                                          {SeesOpp, SeesVtx},
+                                                                          {Sees3Vtx, SeesOpp},
+                                                                          {EmptyQuad, Sees3Vtx},
+                                                                          {ConfEdge, SeesTriang},
+                                                                          {SeesOpp, ConfEdge}}};
+  for_each_scene(kStreams, 40, {}, [&](const Oracle& oracle) {
+    for (const Corners& t : oracle.valid_triangles()) {
+      const auto counted = oracle.counted(t);
+      for (const auto& [weak, strong] : kInclusions) {
+        ASSERT_TRUE(within(counted[index(weak)], counted[index(strong)]))
+            << to_text(t) << ": " << name_of(weak) << " counts more than " << name_of(strong);
+      }
+    }
+  });
+}
+
+// Lemma 2: in a simple polygon, sees-3vtx and empty-quad count the same.
+TEST(OracleTriangleLaws, Lemma2InPolygons) {
+  for_each_scene(std::array{Stream::Polygon}, 100, {}, [](const Oracle& oracle) {
+    for (const Corners& t : oracle.valid_triangles()) {
+      ASSERT_EQ(oracle.counted(t, Definition::Sees3Vtx), oracle.counted(t, Definition::EmptyQuad))
+          << to_text(t);
+    }
+  });
+}
+
+// Lemmas 5 and 6: at order at most 1, sees-triang is sees-vtx, and conf-edge is sees-opp.
+TEST(OracleTriangleLaws, Lemmas5And6) {
+  for_each_scene(kStreams, 40, {}, [](const Oracle& oracle) {
+    for (const Corners& t : oracle.valid_triangles()) {
+      const Orders orders = oracle.orders(t);
+      if (orders[index(Definition::SeesVtx)] <= 1) {
+        ASSERT_EQ(orders[index(Definition::SeesTriang)], orders[index(Definition::SeesVtx)]) << to_text(t);
+      }
+      if (orders[index(Definition::SeesOpp)] <= 1) {
+        ASSERT_EQ(orders[index(Definition::ConfEdge)], orders[index(Definition::SeesOpp)]) << to_text(t);
+      }
+    }
+  });
+}
+
+// Property 2: without constraint edges every definition but empty-quad is the standard order.
+TEST(OracleTriangleLaws, Property2) {
+  for_each_scene(kPlaneStreams, 40, {.constraints = 0}, [](const Oracle& oracle) {
+    for (const Corners& t : oracle.valid_triangles()) {
+      const auto counted = oracle.counted(t);
+      for (const Definition d : kDefinitions) {
+        if (d == Definition::EmptyQuad) continue;
+        ASSERT_EQ(counted[index(d)], counted[index(Definition::Std)]) << to_text(t) << " " << name_of(d);
+      }
+    }
+  });
+}
+
+// Property 1: the triangles of order 0 are those of one triangulation, under every constrained definition.
+TEST(OracleTriangleLaws, Property1) {
+  for_each_scene(kStreams, 40, {}, [](const Oracle& oracle) {
+    const std::vector<Corners> delaunay = delaunay_triangles(oracle);
+    for (const Corners& t : oracle.valid_triangles()) {
+      const bool in_delaunay = std::find(delaunay.begin(), delaunay.end(), t) != delaunay.end();
+      for (const Definition d : kDefinitions) {
+        if (d == Definition::Std || d == Definition::EmptyQuad || d == Definition::Sees3Vtx) continue;
+        ASSERT_EQ(oracle.order(t, d) == 0, in_delaunay) << to_text(t) << " " << name_of(d);
+      }
+    }
+  });
+}
+
+// The oracle's two ways to decide paths agree.
+TEST(OracleTriangleLaws, PathsByParityAndBySlabsAgree) {
+  for_each_scene(kStreams, 3, {.most = 12}, [](const Oracle& oracle) {
+    for (const Corners& t : oracle.valid_triangles()) {
+      const SiteSet members = oracle.counted(t, Definition::Std),
+                    joined = oracle.counted(t, Definition::Pathcon);
+      for (int p = 0; p < oracle.scene().size(); ++p) {
+        if ((members >> p & 1U) == 0) continue;
+        ASSERT_EQ((joined >> p & 1U) != 0, path_joins_by_slabs(oracle.scene(), t, p))
+            << to_text(t) << " point " << p;
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace thalweg::oracle
