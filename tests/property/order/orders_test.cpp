@@ -3,7 +3,7 @@
 #include <thalweg/order/quadrilaterals.hpp>
 
 #include <gtest/gtest.h>
-#include <support/oracle/random_scenes.hpp>
+#include <support/oracle/law_testing.hpp>
 #include <support/oracle/triangulations.hpp>
 #include <support/scene_tin.hpp>
 
@@ -103,7 +103,7 @@ using MakeScene = Scene (*)(Dice&, const SceneOptions&);
 void compare(MakeScene make, const SceneOptions& options, int scenes) {
   Dice dice(testing::UnitTest::GetInstance()->current_test_info()->name());
   OrderWorkspace workspace;
-  for (int i = 0; i < scenes && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < scenes * THALWEG_SCENE_FACTOR && !testing::Test::HasFailure(); ++i) {
     const Scene scene = make(dice, options);
     SCOPED_TRACE(oracle::to_text(scene));
     const Oracle truth(scene);
