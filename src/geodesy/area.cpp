@@ -1,6 +1,6 @@
 // Area on the ellipsoid by C. Karney's formulas for geodesic polygons ("Algorithms for geodesics", 2013,
-// section 6), as GeographicLib has them: they are exact to round-off for edges of any length, and they count
-// a pole that a loop encloses.
+// section 6), as GeographicLib has them: they are exact to round-off for edges of any length, and they
+// count a pole that a loop encloses.
 #include "position.hpp"
 
 #include <thalweg/geodesy/area.hpp>

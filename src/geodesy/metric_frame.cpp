@@ -1,14 +1,14 @@
 // A conformal plane about the data.
 //
-// 1. Longitudes are brought to -180..180 and to 0..360. If they span less than 180 degrees in one of the two,
-// that is the
-//    smallest arc that holds them; else they are sorted, and the arc is what the largest gap leaves.
-// 2. The scale of each candidate projection is sampled on a grid over the extent's half (scale is even in the
-// longitude's
-//    distance from the centre, and monotonous towards the edges), and the header's rules pick one.
+// 1. Longitudes are brought to -180..180 and to 0..360. If they span less than 180 degrees in one of the
+//    two, that is the smallest arc that holds them; else they are sorted, and the arc is what the largest
+//    gap leaves.
+// 2. The scale of each candidate projection is sampled on a grid over the extent's half (scale is even in
+//    the longitude's distance from the centre, and monotonous towards the edges), and the header's rules
+//    pick one.
 // 3. GeographicLib projects: transverse Mercator by Krueger's series (5 nm within 3900 km of the central
-// meridian, beyond
-//    what the rules allow it), the conic and Mercator by one class, polar stereographic in closed form.
+//    meridian, beyond what the rules allow it), the conic and Mercator by one class, polar stereographic in
+//    closed form.
 #include "base/parallel.hpp"
 #include "position.hpp"
 

@@ -1,11 +1,10 @@
 // Lines that follow their source's coordinates.
 //
 // 1. A piece is taken from its lexicographically smaller end, so that both directions give the same vertices.
-// 2. Its bend is the largest distance of sampled positions from the straight chord in the plane: at quarters,
-// and at 32nds where
-//    quarters come near the limit (a piece that bends both ways peaks at 0.211 of its length; quarters
-//    see 97.4 % of that, 32nds 99.9 %). The bend of one of n pieces is about 1/n^2 of the whole one's, so n
-//    is the root of what is too much; n grows until every piece keeps the limit.
+// 2. Its bend is the largest distance of sampled positions from the straight chord in the plane: at
+//    quarters, and at 32nds where quarters come near the limit (a piece that bends both ways peaks at 0.211
+//    of its length; quarters see 97.4 % of that, 32nds 99.9 %). The bend of one of n pieces is about 1/n^2
+//    of the whole one's, so n is the root of what is too much; n grows until every piece keeps the limit.
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/densify.hpp>
 

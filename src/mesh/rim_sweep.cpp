@@ -12,11 +12,10 @@
 // rim.
 //
 // 1. Sweep from left to right (equal x: upwards), with the edges under the sweep line in a balanced tree
-// (Shamos and Hoey,
-//    Geometric intersection problems, 1976). Neighbours in the tree are tested for a common point, exactly.
+//    (Shamos and Hoey, Geometric intersection problems, 1976). Neighbours in the tree are tested for a
+//    common point, exactly.
 // 2. An edge that meets another one is reported and left out of the tree, so that the order in it stays
-// sound; the surfaced
-//    sides are compared as long as nothing was left out.
+//    sound; the surfaced sides are compared as long as nothing was left out.
 #include "mesh/rim_sweep.hpp"
 
 #include <thalweg/geometry/predicates.hpp>

@@ -1,15 +1,14 @@
 // The laws of a TIN, checked.
 //
 // 1. What one vertex, one triangle or one halfedge shows alone is scanned in parallel; each scan keeps the
-// first few finds.
-// 2. Halfedges are bucketed by origin. Two with the same target break a law; the twin of a -> b is looked up
-// among those of b
-//    (by bisection where b has many).
+//    first few finds.
+// 2. Halfedges are bucketed by origin. Two with the same target break a law; the twin of a -> b is looked
+//    up among those of b (by bisection where b has many).
 // 3. Overlap, touching vertices and equal positions are told from the rim alone (rim_sweep.cpp); that holds
-// once all triangles
-//    are counter-clockwise and edges are used once a side. Crossed constraint edges need no test: a
-//    constraint edge is an edge of a triangle, and triangles do not overlap.
-// 4. The rim proves that all positions differ only where nothing is wrong; otherwise all vertices are sorted.
+//    once all triangles are counter-clockwise and edges are used once a side. Crossed constraint edges need
+//    no test: a constraint edge is an edge of a triangle, and triangles do not overlap.
+// 4. The rim proves that all positions differ only where nothing is wrong; otherwise all vertices are
+//    sorted.
 #include "base/parallel.hpp"
 #include "mesh/rim_sweep.hpp"
 

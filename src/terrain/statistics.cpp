@@ -1,11 +1,10 @@
 // Figures of a TIN.
 //
-// 1. Blocks of triangles with fixed borders are measured in parallel, each into its own figures; the blocks'
-// figures are
-//    added in order. Areas are added in double-double (Knuth's TwoSum), so the rounded sum does not depend on
-//    the order of triangles in practice: its error is some 2^-100 of the sum.
+// 1. Blocks of triangles with fixed borders are measured in parallel, each into its own figures; the
+//    blocks' figures are added in order. Areas are added in double-double (Knuth's TwoSum), so the rounded
+//    sum does not depend on the order of triangles in practice: its error is some 2^-100 of the sum.
 // 2. A triangle's figures are computed from its lexicographically smallest corner, so they do not depend on
-// ids.
+//    ids.
 // 3. Angles are compared by their tangents; one arc tangent at the end.
 // 4. Hull: Andrew's monotone chain over the rim's vertices, exact, vertices within a side kept.
 #include "base/parallel.hpp"
@@ -114,9 +113,8 @@ void add_triangle(const Tin& tin, const Triangle& t, const MetricScale& scale, F
     s = {s.x * scale.horizontal_metres_per_unit, s.y * scale.horizontal_metres_per_unit,
          s.z * scale.vertical_metres_per_unit};
   }
-  const Vector3 normal = {side[2].y * side[0].z - side[2].z * side[0].y,
-                          side[2].z * side[0].x - side[2].x * side[0].z, cross(side[2], side[0])};
-  const Vector3 up = {-normal.x, -normal.y, -normal.z};  // side[2] runs towards the first corner
+  const Vector3 up = {side[2].y * side[0].z - side[2].z * side[0].y,
+                      side[2].z * side[0].x - side[2].x * side[0].z, cross(side[2], side[0])};
   const double horizontal = std::hypot(up.x, up.y);
   figures.area.add(up.z / 2);
   figures.surface_area.add(std::hypot(horizontal, up.z) / 2);

@@ -11,9 +11,9 @@
 namespace thalweg {
 
 /// Area in square metres of what the loops enclose, with geodesics for their edges: counter-clockwise loops
-/// count positive, clockwise ones (holes) negative. An edge that is straight in another sense (in a
-/// projection, or along a parallel) encloses a little more or less: for edges of 1 km at 45 degrees about 6
-/// m2 each. Loops index `lonlat_deg` (longitude, latitude, degrees); the edge from last to first is implied.
+/// count positive, clockwise ones (holes) negative. An edge that is straight in another sense encloses a
+/// little more or less: 13 m2 for an edge of 1 km along the parallel of 45 degrees, growing with the length's
+/// cube. Loops index `lonlat_deg` (longitude, latitude, degrees); the edge from last to first is implied.
 /// Pre: no loop encloses a pole and more than half of the ellipsoid.
 /// Throws: Error{BadCoordinate} for a position of a loop that is not finite or out of range.
 /// Complexity: linear in the loops.

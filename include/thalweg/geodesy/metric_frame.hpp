@@ -30,12 +30,11 @@ enum class Projection { TransverseMercator, LambertConformalConic, Mercator, Pol
 ///
 /// Choice, by the spread of scale s (largest over smallest scale within the extent):
 /// 1. transverse Mercator if the arc is at most 90 degrees wide and s <= 1.01 (at the equator: 8 degrees to
-/// each side);
+///    each side);
 /// 2. else polar stereographic if all latitudes are beyond 60 degrees and the arc is wider than 180;
 /// 3. else the least s of transverse Mercator (arc at most 90 degrees, s <= 1.2), conic (Mercator where its
-/// parallel is
-///    within 4 degrees of the equator, for there a cone is too steep for double arithmetic) and polar
-///    stereographic.
+///    parallel is within 4 degrees of the equator, for there a cone is too steep for double arithmetic) and
+///    polar stereographic.
 /// The centre is rounded to 0.01 degrees, so that nearly equal data share their plane.
 ///
 /// Laws: (1) `proj_string` reproduces `to_plane` with PROJ to 1e-6 m; (2) `to_geographic` inverts `to_plane`

@@ -12,24 +12,38 @@ namespace thalweg {
 
 /// Numbers of the laws that a TIN can break; fixed, for scripts.
 namespace violation {
-inline constexpr int kNotFinite = 101;     ///< a coordinate or height is not finite, or 1e100 and more
-inline constexpr int kSamePosition = 102;  ///< two vertices share a position
-inline constexpr int kBadTriangle = 103;   ///< a triangle repeats a vertex, or names one that does not exist
-inline constexpr int kNotCanonical =
-    104;  ///< a triangle does not start at its smallest id, or is out of order
-inline constexpr int kNotCounterClockwise = 105;  ///< a triangle is flat or clockwise in the plane
-inline constexpr int kTurnedInWritten = 106;   ///< a triangle is flat or clockwise in the written coordinates
-inline constexpr int kSameSide = 107;          ///< two triangles lie on the same side of an edge
-inline constexpr int kVertexOnSurface = 108;   ///< a vertex lies on an edge or triangle that is not its own
-inline constexpr int kOverlap = 109;           ///< triangles overlap in the plane
-inline constexpr int kOverlapInWritten = 110;  ///< triangles overlap or touch in the written coordinates
-inline constexpr int kConstraintNoEdge =
-    111;                                  ///< a constraint edge is no edge of a triangle, so it is crossed
-inline constexpr int kTwinWrong = 112;    ///< a halfedge's twin is not the other side of its edge
-inline constexpr int kKindsDiffer = 113;  ///< the two sides of an edge differ in kind
-inline constexpr int kFanWrong = 114;     ///< a vertex does not list exactly the halfedges that start at it
-inline constexpr int kIsolatedVertex = 115;  ///< a vertex is in no triangle (only if asked)
-inline constexpr int kLengthsDiffer = 116;   ///< parallel arrays differ in length
+/// A coordinate or height is not finite, or 1e100 and more.
+inline constexpr int kNotFinite = 101;
+/// Two vertices share a position.
+inline constexpr int kSamePosition = 102;
+/// A triangle repeats a vertex, or names one that does not exist.
+inline constexpr int kBadTriangle = 103;
+/// A triangle does not start at its smallest id, or is out of order.
+inline constexpr int kNotCanonical = 104;
+/// A triangle is flat or clockwise in the plane.
+inline constexpr int kNotCounterClockwise = 105;
+/// A triangle is flat or clockwise in the written coordinates.
+inline constexpr int kTurnedInWritten = 106;
+/// Two triangles lie on the same side of an edge.
+inline constexpr int kSameSide = 107;
+/// A vertex lies on an edge or triangle that is not its own.
+inline constexpr int kVertexOnSurface = 108;
+/// Triangles overlap in the plane.
+inline constexpr int kOverlap = 109;
+/// Triangles overlap or touch in the written coordinates.
+inline constexpr int kOverlapInWritten = 110;
+/// A constraint edge is no edge of a triangle, so it is crossed.
+inline constexpr int kConstraintNoEdge = 111;
+/// A halfedge's twin is not the other side of its edge.
+inline constexpr int kTwinWrong = 112;
+/// The two sides of an edge differ in kind.
+inline constexpr int kKindsDiffer = 113;
+/// A vertex does not list exactly the halfedges that start at it.
+inline constexpr int kFanWrong = 114;
+/// A vertex is in no triangle (only if asked).
+inline constexpr int kIsolatedVertex = 115;
+/// Parallel arrays differ in length.
+inline constexpr int kLengthsDiffer = 116;
 }  // namespace violation
 
 /// One broken law and where.
