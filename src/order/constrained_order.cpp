@@ -191,6 +191,12 @@ bool ConstrainedOrder::at_most(const Triangle& triangle, OrderDefinition definit
   return workspace.parts_->counted.size() <= k;
 }
 
+std::optional<std::size_t> ConstrainedOrder::order_up_to(const Triangle& triangle, OrderDefinition definition,
+                                                         std::size_t k, OrderWorkspace& workspace) const {
+  if (!at_most(triangle, definition, k, workspace)) return std::nullopt;
+  return workspace.parts_->counted.size();
+}
+
 std::vector<VertexId> ConstrainedOrder::counted(const Triangle& triangle, OrderDefinition definition,
                                                 OrderWorkspace& workspace) const {
   count(triangle, definition, std::numeric_limits<std::size_t>::max(), workspace);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace thalweg {
@@ -83,6 +84,9 @@ class ConstrainedOrder {
   /// Whether its order is at most k; stops as soon as more than k vertices are certain. Pre: as `order`.
   [[nodiscard]] bool at_most(const Triangle& triangle, OrderDefinition definition, std::size_t k,
                              OrderWorkspace& workspace) const;
+  /// Its order if that is at most k. Pre: as `order`.
+  [[nodiscard]] std::optional<std::size_t> order_up_to(const Triangle& triangle, OrderDefinition definition,
+                                                       std::size_t k, OrderWorkspace& workspace) const;
   /// The vertices that are counted, ascending. Pre: as `order`.
   [[nodiscard]] std::vector<VertexId> counted(const Triangle& triangle, OrderDefinition definition,
                                               OrderWorkspace& workspace) const;

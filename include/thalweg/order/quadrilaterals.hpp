@@ -37,7 +37,7 @@ struct QuadrilateralOptions {
 /// the list is empty. Under Sees3vtx and EmptyQuad quadrilaterals may share triangles, only one of which can
 /// then be flipped, and further edges can be free as well. Pre: `ground` is the constrained Delaunay
 /// triangulation of all its vertices (tie rule of in_circle_perturbed), covering the convex hull in mode
-/// Plane. Throws: Error{Cancelled}. Complexity: linear in practice: the degrees of u and v for each edge, and
+/// Hull. Throws: Error{Cancelled}. Complexity: linear in practice: the degrees of u and v for each edge, and
 /// a flood of the disc near constraint edges. Deterministic, parallel.
 std::vector<Quadrilateral> find_quadrilaterals(const Tin& ground, const QuadrilateralOptions& options,
                                                const Progress& progress);

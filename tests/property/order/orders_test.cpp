@@ -116,16 +116,16 @@ void compare(MakeScene make, const SceneOptions& options, int scenes) {
 }
 
 TEST(Orders, AgreeInGeneralPosition) {
-  compare(oracle::random_scene, {.most = 16, .constraints = 10}, 250);
+  compare(oracle::random_scene, {.most = 16, .constraints = 10}, 120);
 }
 TEST(Orders, AgreeOnLattices) {
-  compare(oracle::random_lattice_scene, {.most = 16, .range = 5, .constraints = 8}, 250);
+  compare(oracle::random_lattice_scene, {.most = 16, .range = 5, .constraints = 8}, 120);
 }
 TEST(Orders, AgreeInPolygons) {
-  compare(oracle::random_polygon, {.most = 14}, 200);
+  compare(oracle::random_polygon, {.most = 14}, 100);
 }
 TEST(Orders, AgreeOnGroundsWithHoles) {
-  compare(oracle::random_ground, {.most = 16}, 200);
+  compare(oracle::random_ground, {.most = 16}, 80);
 }
 
 }  // namespace

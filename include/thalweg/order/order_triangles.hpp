@@ -1,0 +1,38 @@
+#pragma once
+
+/// All valid triangles of order at most k.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/tin.hpp>
+#include <thalweg/order/constrained_order.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace thalweg {
+
+struct OrderTriangle {
+  Triangle corners;  ///< counter-clockwise from the smallest id
+  std::uint32_t order = 0;
+  auto operator<=>(const OrderTriangle&) const = default;
+};
+
+struct OrderTriangleOptions {
+  OrderDefinition definition = OrderDefinition::SeesOpp;
+  std::size_t max_order = 1;
+  /// Where no local search is proved complete, at most that many vertices are searched.
+  std::size_t exhaustive_limit = 5000;
+};
+
+/// All valid triangles of order at most `max_order`, whether or not a triangulation of that order holds them;
+/// sorted.
+///
+/// Under Std ... SeesOpp, and Sees3vtx without constraint edges, a local search, proved complete, whose cost
+/// goes with what it finds and with what the vertices see near by. Under Sees3vtx and EmptyQuad nothing
+/// bounds where such triangles lie: every pair of vertices that see each other is tried. Throws:
+/// Error{SizeLimit} if these have more vertices than `exhaustive_limit`; {Cancelled}. Parallel;
+/// deterministic.
+std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
+                                                const OrderTriangleOptions& options, Progress& progress);
+
+}  // namespace thalweg
