@@ -96,7 +96,7 @@ std::string geometry(const SceneFile& file, const Frame& frame) {
     text += "<path d=\"M" + frame.at(scene.at(t[0])) + "L" + frame.at(scene.at(t[1])) + "L" +
             frame.at(scene.at(t[2])) + "Z\" fill=\"#ddd\" stroke=\"#666\"/>\n";
   }
-  return text + lines(scene, frame, scene.constraints, "stroke=\"#000\" stroke-width=\"2.5\"") +
+  return text + lines(scene, frame, scene.constraints, "stroke=\"#000\" stroke-width=\"2\"") +
          "</g></defs>\n";
 }
 
@@ -108,9 +108,9 @@ std::string sites(const SceneFile& file, const Frame& frame, SiteSet counted, Si
     const double x = frame.x(static_cast<double>(s.x)), y = frame.y(static_cast<double>(s.y));
     const char* look = "r=\"1.8\"";
     if ((counted >> v & 1U) != 0) {
-      look = "r=\"4\" fill=\"#c33\"";
+      look = "r=\"3\" fill=\"#c33\"";
     } else if ((members >> v & 1U) != 0) {
-      look = "r=\"3.5\" fill=\"#fff\" stroke=\"#c33\" stroke-width=\"1.5\"";
+      look = "r=\"2.6\" fill=\"#fff\" stroke=\"#c33\" stroke-width=\"1.2\"";
     }
     text += "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" " + look + "/>";
     text += "<text x=\"" + number(x + 4) + "\" y=\"" + number(y - 4) + "\">" +
