@@ -90,6 +90,55 @@ TEST(OracleTriangleLaws, Property1) {
   });
 }
 
+// How many triples and quadruples with site v change their sense if v moves; two if the move ends on a
+// degeneracy.
+int criticalities(const Scene& before, const Scene& after, int v) {
+  int changes = 0;
+  for (int a = 0; a < before.size(); ++a) {
+    for (int b = 0; b < a; ++b) {
+      if (a == v || b == v) continue;
+      const auto side = [&](const Scene& s) { return sign_of(turn(s.at(a), s.at(b), s.at(v))); };
+      if (side(after) == 0) return 2;
+      changes += side(before) != side(after) ? 1 : 0;
+      for (int c = 0; c < b; ++c) {
+        if (c == v) continue;
+        const Corners t = before.counter_clockwise({a, b, c});
+        const auto place = [&](const Scene& s) {
+          return sign_of(power(s.at(t[0]), s.at(t[1]), s.at(t[2]), s.at(v)));
+        };
+        if (place(after) == 0) return 2;
+        changes += place(before) != place(after) ? 1 : 0;
+      }
+    }
+  }
+  return changes;
+}
+
+// Property 4: if one site passes one criticality, the order of a triangle that stays changes by one at most.
+// Not so for pathcon and conf-edge (see the scenes figure-3-left and property-4-conf-edge).
+TEST(OracleTriangleLaws, Property4) {
+  Dice dice("Property4 moves");
+  int moves = 0;
+  for_each_scene(std::array{Stream::General}, 300, {.most = 10}, [&](const Oracle& before) {
+    const int v = dice.between(0, before.scene().size() - 1);
+    Scene moved = before.scene();
+    moved.sites[static_cast<std::size_t>(v)].x += dice.between(-2, 2);
+    moved.sites[static_cast<std::size_t>(v)].y += dice.between(-2, 2);
+    if (criticalities(before.scene(), moved, v) != 1 || !defect(moved).empty()) return;
+    ++moves;
+    const Oracle after(moved);
+    for (const Corners& t : before.valid_triangles()) {
+      if (moved.counter_clockwise(t) != t || after.validity(t) != Validity::Valid) continue;
+      for (const Definition d : kDefinitions) {
+        if (d == Definition::Pathcon || d == Definition::ConfEdge) continue;
+        ASSERT_LE(std::abs(after.order(t, d) - before.order(t, d)), 1)
+            << to_text(t) << " " << name_of(d) << ", site " << v << " in " << to_text(moved);
+      }
+    }
+  });
+  EXPECT_GT(moves, 10);
+}
+
 // The oracle's two ways to decide paths agree.
 TEST(OracleTriangleLaws, PathsByParityAndBySlabsAgree) {
   for_each_scene(kStreams, 3, {.most = 12}, [](const Oracle& oracle) {

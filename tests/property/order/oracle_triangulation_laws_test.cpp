@@ -100,16 +100,26 @@ TEST(OracleTriangulationLaws, Corollary1) {
   });
 }
 
-// Corollary 1, the half of it that is true for sees-triang and sees-vtx: two triangles of order k are
-// sufficient.
-TEST(OracleTriangulationLaws, Corollary1IsSufficientForSights) {
+// Lemma 4 and the order of the definitions: conf-edge and sees-opp make the same edges useful at the same
+// order.
+TEST(OracleTriangulationLaws, ConfEdgeAndSeesOppMakeTheSameEdgesUseful) {
+  for_each_scene(kStreams, 60, kSmall, [](const Oracle& oracle) {
+    const Enumeration all = enumerate(oracle);
+    ASSERT_EQ(all.useful_orders(Definition::ConfEdge), all.useful_orders(Definition::SeesOpp));
+  });
+}
+
+// Corollary 1, the half of it that is true for sees-triang: two triangles of order k are sufficient. (What a
+// farther greedy triangle counts sees it across the edge, hence sees the triangle at the edge, too. It need
+// not see a corner of that: for sees-vtx this half is false as well, see the scenes corollary-1-sees-vtx.)
+TEST(OracleTriangulationLaws, Corollary1IsSufficientForSeesTriang) {
   for_each_useful_edge({Definition::SeesTriang}, [](const Oracle& oracle, Edge e, Definition d, int k) {
     EXPECT_LE(k, largest_order_at(oracle, greedy_triangles(oracle, e), e, d));
   });
 }
 
-// Lemma 7 and the fast rule of section 6: the first-order triangulations are the fixed edges and a free
-// choice of diagonal in each quadrilateral.
+// Lemma 7, Corollary 3 and the fast rule of section 6: the first-order triangulations are the fixed edges and
+// a free choice of diagonal in each quadrilateral.
 TEST(OracleTriangulationLaws, Lemma7) {
   for_each_scene(kStreams, 60, kSmall, [](const Oracle& oracle) {
     const Enumeration all = enumerate(oracle);
@@ -165,6 +175,57 @@ TEST(OracleTriangulationLaws, StandardOrderAtMostOne) {
     const int own = largest_order(oracle, delaunay_triangles(oracle), Definition::Std);
     for (const int k : {0, 1}) ASSERT_EQ(!all.of_order(Definition::Std, k).empty(), own <= k) << k;
   });
+}
+
+// The smallest standard order of a valid triangle on the left of a -> b, or -1 if there is no ground.
+int smallest_beside(const Enumeration& all, int a, int b) {
+  int smallest = -1;
+  for (std::size_t i = 0; i < all.triangles.size(); ++i) {
+    const Corners& t = all.triangles[i];
+    for (std::size_t side = 0; side < 3; ++side) {
+      const int order = all.orders[i][index(Definition::Std)];
+      if (t[side] == a && t[(side + 1) % 3] == b && (smallest < 0 || order < smallest)) smallest = order;
+    }
+  }
+  return smallest;
+}
+
+// With constraint edges the smallest standard order of a triangulation lies between what each side of each
+// constraint edge demands and that of the Delaunay triangulation.
+TEST(OracleTriangulationLaws, SmallestStandardOrder) {
+  for_each_scene(kPlaneStreams, 60, kSmall, [](const Oracle& oracle) {
+    const Enumeration all = enumerate(oracle);
+    int smallest = oracle.scene().size(), demanded = 0;
+    for (const Orders& largest : all.largest) smallest = std::min(smallest, largest[index(Definition::Std)]);
+    for (const auto& [a, b] : oracle.scene().constraints) {
+      demanded = std::max({demanded, smallest_beside(all, a, b), smallest_beside(all, b, a)});
+    }
+    ASSERT_LE(demanded, smallest);
+    ASSERT_LE(smallest, largest_order(oracle, delaunay_triangles(oracle), Definition::Std));
+  });
+}
+
+Scene lattice(int columns, int rows, int width, int height) {
+  Scene scene;
+  for (int x = 0; x < columns; ++x) {
+    for (int y = 0; y < rows; ++y) scene.sites.push_back({x * width, y * height});
+  }
+  return scene;
+}
+
+// On any lattice, order 1 means one free diagonal in every cell; so do 2 and 3 if the ratio of a cell's sides
+// is less than the root of 2.
+TEST(OracleTriangulationLaws, LatticesHaveOneFreeDiagonalACell) {
+  for (const auto& [width, height, bound] : {std::array{1, 1, 3}, {10, 13, 3}, {10, 15, 1}, {3, 1, 1}}) {
+    const Enumeration all = enumerate(Oracle(lattice(3, 3, width, height)));
+    for (const Definition d : kDefinitions) {
+      if (d == Definition::Sees3Vtx || d == Definition::EmptyQuad) continue;
+      for (int k = 1; k <= bound; ++k) {
+        EXPECT_EQ(all.of_order(d, k).size(), 16U)
+            << width << " x " << height << ", k = " << k << ", " << name_of(d);
+      }
+    }
+  }
 }
 
 }  // namespace
