@@ -50,14 +50,13 @@ void TextBlocks::fill() {
   const std::size_t wanted = buffer_.size() - filled_;
   GdalSession session;
   const std::size_t got = VSIFReadL(buffer_.data() + filled_, 1, wanted, file_.get());
-  if (got < wanted) {
-    if (VSIFEofL(file_.get()) == 0 || session.failed()) {
-      throw Error(ErrorCode::Unreadable, name_ + " cannot be read to its end" + session.reason());
-    }
-    at_end_ = true;
-  }
   filled_ += got;
   bytes_read_ += static_cast<double>(got);
+  // Compressed files may give less than was asked for before their end: the end is where nothing more comes.
+  at_end_ = got == 0;
+  if (session.failed() || (at_end_ && bytes_read_ < size_)) {
+    throw Error(ErrorCode::Unreadable, name_ + " cannot be read to its end" + session.reason());
+  }
 }
 
 std::string_view TextBlocks::next() {

@@ -30,10 +30,12 @@ struct CrsInfo {
   double flattening = 1 / 298.257223563;  ///< 0 for a sphere
 };
 
-/// Reads a definition: "EPSG:n", "EPSG:n+m" (horizontal + vertical), an OGC URN
-/// or URL, WKT, PROJJSON, a PROJ string, or the name of a file that holds one of these (.prj). An empty
-/// definition is an unknown CRS: planar, metres in all directions. The network is never asked. Throws:
-/// Error{BadCrs} naming the definition: not understood, or a CRS without a plane (earth-centred, vertical).
+/// Reads a definition: "EPSG:n", "EPSG:n+m" (horizontal + vertical), an OGC URN or URL, WKT, PROJJSON, a PROJ
+/// string, or the name of a file that holds WKT or a PROJ string (.prj). An empty definition is an unknown
+/// CRS: planar, metres in all directions. The network is never asked.
+///
+/// Throws: Error{BadCrs} naming the definition, if it is not understood or a CRS without a plane
+/// (earth-centred, vertical).
 CrsInfo describe_crs(const std::string& definition);
 
 }  // namespace thalweg
