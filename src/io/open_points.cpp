@@ -2,6 +2,7 @@
 #include "io/dataset.hpp"
 #include "io/gdal_session.hpp"
 #include "io/layer_reader.hpp"
+#include "io/mesh_points.hpp"
 #include "io/raster_points.hpp"
 #include "io/source_reader.hpp"
 #include "io/text_points.hpp"
@@ -22,6 +23,11 @@ bool has_point_layer(GDALDataset& dataset) {
     if (can_hold(layer->GetGeomType(), LayerUse::Points)) return true;
   }
   return false;
+}
+
+/// True for the layers that a TIN is written as; its vertices are points.
+bool is_tin(GDALDataset& dataset) {
+  return dataset.GetLayerByName("triangles") != nullptr && dataset.GetLayerByName("vertices") != nullptr;
 }
 
 std::string list_subdatasets(GDALDataset& dataset) {
@@ -46,15 +52,19 @@ std::string extension_of(const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<SourceReader> open_points(const SourceSpec& spec) {
+std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const Progress& progress) {
   const std::string extension = extension_of(spec.path);
   if (extension == ".las" || extension == ".laz") {
     throw Error(
         ErrorCode::Unsupported,
         spec.path + ": LAS files are not read; convert it to text first (pdal translate in.las out.csv)");
   }
+  if (is_mesh(spec)) return open_mesh(spec, progress);
   if (is_text(spec)) return open_text(spec);
   GDALDatasetUniquePtr dataset = open_dataset(spec.path);
+  if (spec.layer.empty() && is_tin(*dataset)) {
+    return open_layer_points({spec.path, "vertices"}, std::move(dataset));
+  }
   const bool has_raster = dataset->GetRasterCount() > 0;
   if (!spec.layer.empty() || has_point_layer(*dataset) || (dataset->GetLayerCount() > 0 && !has_raster)) {
     return open_layer_points(spec, std::move(dataset));

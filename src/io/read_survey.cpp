@@ -57,7 +57,7 @@ class SurveyReading {
       : run_{.options = options, .progress = progress} {}
 
   void open(std::span<const SourceSpec> points, std::span<const LineSource> lines) {
-    for (const SourceSpec& spec : points) readers_.push_back(open_points(spec));
+    for (const SourceSpec& spec : points) readers_.push_back(open_points(spec, run_.progress));
     point_sources_ = readers_.size();
     for (const LineSource& source : lines) readers_.push_back(thalweg::open_lines(source));
     run_.sources = readers_.size();

@@ -83,7 +83,7 @@ class SourceReader {
 };
 
 /// Opens a source of points, whatever it is. Throws: as read_survey.
-std::unique_ptr<SourceReader> open_points(const SourceSpec& spec);
+std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const Progress& progress);
 /// Opens a layer of lines or polygons. Throws: as read_survey.
 std::unique_ptr<SourceReader> open_lines(const LineSource& source);
 

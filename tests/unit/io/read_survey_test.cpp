@@ -157,6 +157,25 @@ TEST_F(ReadSurvey, LeavesOutWhatIsOutsideTheBox) {
   expect_error(ErrorCode::Usage, {"xmin,ymin,xmax,ymax"}, [&] { read({file}, {.bbox = Box2{1, 0, 0, 1}}); });
 }
 
+TEST_F(ReadSurvey, TakesTheVerticesOfMeshes) {
+  const std::string ply =
+      write("m.ply",
+            "ply\nformat ascii 1.0\ncomment crs: EPSG:32611\nelement vertex 3\nproperty double x\n"
+            "property double y\nproperty double z\nelement face 1\n"
+            "property list uchar int vertex_indices\nend_header\n"
+            "500000 4000000 1\n500010 4000000 2\n500000 4000010 3\n3 0 1 2\n");
+  const ReadResult result = read({ply});
+  EXPECT_THAT(result.survey.points.z, ElementsAre(1, 2, 3));
+  EXPECT_EQ(result.crs.authority, "EPSG:32611");
+  const std::string cloud =
+      write("c.ply",
+            "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n1 2 3\n4 5 6\n");
+  EXPECT_THAT(read({cloud}).survey.points.z, ElementsAre(3, 6));
+  expect_error(ErrorCode::Unsupported, {"x.ply"}, [&] { read({write("x.ply", "no mesh")}); });
+  expect_error(ErrorCode::NotFound, {"absent.ply"}, [&] { read({path("absent.ply")}); });
+}
+
 TEST_F(ReadSurvey, RefusesOptionsThatFitNothing) {
   const std::string file = write("p.csv", "x,y,z\n0,0,1\n1,1,2\n2,2,3\n");
   expect_error(ErrorCode::MissingHeight, {"elev"}, [&] { read({file}, {.line_z_field = "elev"}); });

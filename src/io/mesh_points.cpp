@@ -1,0 +1,76 @@
+// Points that are the vertices of a mesh. The whole mesh is read when it is opened, because its CRS may stand
+// anywhere in it; its faces are dropped, so that a cloud of points without any will do.
+#include "io/mesh_points.hpp"
+
+#include "io/file_content.hpp"
+#include "io/point_collector.hpp"
+#include "io/spatial_reference.hpp"
+#include "io/tin_format.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+class MeshPoints : public SourceReader {
+ public:
+  MeshPoints(const SourceSpec& spec, TinFile mesh) : SourceReader(spec), mesh_(std::move(mesh)) {
+    if (!mesh_.crs.empty()) set_reference(parse_reference(mesh_.crs));
+  }
+
+  void read(ReadContext& run, PlaneTransform& transform) override {
+    if (!run.options.where.empty()) run.where.refusals.push_back(name() + " is a mesh and has no attributes");
+    if (!run.options.z_field.empty()) run.z_field.refusals.push_back(name() + " is a mesh and has no fields");
+    expect_points(run.result.survey.points, static_cast<double>(mesh_.points.size()));
+    PointCollector points(run, transform);
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      const Point2 p = mesh_.points[i];
+      if (!is_usable(p.x) || !is_usable(p.y) || !is_usable(mesh_.heights[i])) {
+        throw Error(ErrorCode::BadCoordinate,
+                    name() + " vertex " + std::to_string(i) + " has no usable coordinates");
+      }
+      points.add(p, mesh_.heights[i]);
+    }
+    points.finish();
+    mesh_ = {};
+  }
+
+ private:
+  TinFile mesh_;
+};
+
+}  // namespace
+
+bool is_mesh(const SourceSpec& spec) {
+  const std::size_t dot = spec.path.find_last_of("./");
+  if (dot == std::string::npos) return false;
+  std::string extension = spec.path.substr(dot);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".ply" || extension == ".2dm" || extension == ".obj";
+}
+
+std::unique_ptr<SourceReader> open_mesh(const SourceSpec& spec, const Progress& progress) {
+  constexpr std::size_t kHead = 512;
+  const std::string head = read_head(spec.path, kHead);
+  // The run reports its own fraction; only the wish to stop is passed on.
+  Progress quiet([&](const std::string&, double) { progress.check(); });
+  for (const TinFormat& format : tin_format_table()) {
+    if (format.read == nullptr || !format.recognises(head, spec.path)) continue;
+    TinFile mesh = format.read(spec.path, quiet);
+    mesh.triangles = {};
+    if (mesh.points.empty()) throw Error(ErrorCode::EmptyInput, spec.path + " holds no vertices");
+    if (mesh.crs.empty()) mesh.crs = read_prj_sidecar(spec.path);
+    return std::make_unique<MeshPoints>(spec, std::move(mesh));
+  }
+  throw Error(ErrorCode::Unsupported, spec.path + " is no mesh of a format that is known; convert it to PLY");
+}
+
+}  // namespace thalweg
