@@ -3,8 +3,8 @@
 // 1. Boxes are laid out along the Hilbert order of their centres, and eight successive ones make a node
 //    (Kamel, Faloutsos, On packing R-trees, 1993). Clusters and outliers do not hurt, as they would a grid.
 // 2. The box of a long oblique segment is mostly empty. Segments are cut into parts of equal length such that
-//    no part spans more than L in both x and y; L is chosen so that there are at most 2 n + kSpareParts
-//    parts.
+//    no part spans more than L in both x and y; L is chosen so that n segments have at most 2 n parts, or at
+//    most 16 n where they are few.
 #include "box_tree.hpp"
 
 #include "spatial_order.hpp"
@@ -15,7 +15,8 @@ namespace thalweg {
 
 namespace {
 
-constexpr double kSpareParts = 30000;
+constexpr double kManyParts = 30000;
+constexpr double kPartsOfFew = 15;
 // A point of a segment computed as a + t (b - a) is off by less than four units in the last place.
 constexpr double kRounding = 0x1p-50;
 
@@ -57,7 +58,8 @@ BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress
     total += narrow_extent(s);
     for (const double c : {s.a.x, s.a.y, s.b.x, s.b.y}) largest = std::max(largest, std::abs(c));
   }
-  const double longest_part = total / (static_cast<double>(segments.size()) + kSpareParts);
+  const auto count = static_cast<double>(segments.size());
+  const double longest_part = total / std::max(count, std::min(kManyParts, kPartsOfFew * count));
   const double margin = largest * kRounding;
   std::vector<Box2> boxes;
   std::vector<std::uint32_t> items;

@@ -2,6 +2,8 @@
 
 /// A static tree of boxes: which of many boxes meet a given one.
 
+#include "segments.hpp"
+
 #include <thalweg/base/progress.hpp>
 #include <thalweg/geometry/point.hpp>
 
@@ -11,11 +13,6 @@
 #include <vector>
 
 namespace thalweg {
-
-struct Segment {
-  Point2 a;
-  Point2 b;
-};
 
 inline bool meet(const Box2& p, const Box2& q) {
   return p.x_min <= q.x_max && q.x_min <= p.x_max && p.y_min <= q.y_max && q.y_min <= p.y_max;

@@ -6,7 +6,7 @@
 //    only if every constraint edge of it keeps its other triangle. That order is one of coordinates, so the
 //    outcome does not depend on ids; where no constraint edge is near it plays no part at all.
 #include <thalweg/base/error.hpp>
-#include <thalweg/delaunay/rim.hpp>
+#include <thalweg/delaunay/trim.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
 #include <algorithm>
