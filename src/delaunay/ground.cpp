@@ -1,22 +1,233 @@
 // The ground of a survey.
+//
+// 1. Merge equal positions; draw points and lines, noded, as one plan; settle the heights that points and
+// hard
+//    lines give.
+// 2. Vertices that only soft lines have take the height of the base: the triangulation of all points and hard
+//    lines, drawn by themselves.
+// 3. Triangulate. In polygon mode flood the triangles for those inside, and keep these and their vertices.
+// That
+//    equals dropping all that is outside first, because no empty circle has to heed what is behind a
+//    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
+//    them.
+#include "drawing.hpp"
+#include "heights.hpp"
 #include "merge.hpp"
+#include "provenance.hpp"
+#include "region.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/ground.hpp>
+#include <thalweg/delaunay/surface.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace thalweg {
 
+namespace {
+
+std::vector<std::uint32_t> lines_to_draw(const Survey& survey, bool (*wanted)(const SurveyLine&)) {
+  std::vector<std::uint32_t> lines;
+  for (std::uint32_t l = 0; l < survey.lines.size(); ++l) {
+    if (wanted(survey.lines[l])) lines.push_back(l);
+  }
+  return lines;
+}
+
+// The height of the nearest rim edge, if it is at most `reach` away.
+std::optional<double> height_at_rim(const Tin& tin, Point2 p, double reach) {
+  double nearest = reach;
+  std::optional<double> height;
+  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (!tin.on_rim(h)) continue;
+    const Point2 a = tin.point(tin.origin(h)), b = tin.point(tin.target(h));
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    const double t = std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+    const double distance = std::hypot(a.x + t * dx - p.x, a.y + t * dy - p.y);
+    if (distance > nearest) continue;
+    nearest = distance;
+    height = interpolate_on_segment(a, tin.height(tin.origin(h)), b, tin.height(tin.target(h)), p);
+  }
+  return height;
+}
+
+[[noreturn]] void refuse_outside(const Survey& survey, const Drawing& drawing, std::uint32_t v) {
+  const auto passage = std::ranges::lower_bound(drawing.passages, v, {}, &Passage::vertex);
+  throw Error(
+      ErrorCode::OutsideHull,
+      fmt::format("{} at {} has no height and lies outside of the ground of points and lines with heights; "
+                  "give it a height (3D geometry or --line-z-field), shorten the line, or add points there",
+                  describe_line_vertex(survey, passage->line, passage->at),
+                  describe_place(drawing.vertices.xy[v])));
+}
+
+// Step 2. A vertex that rounding has put outside of the base's hull takes the height of the hull.
+void drape(const Survey& survey, const MergedVertices& merged, const GroundOptions& options,
+           const Drawing& drawing, Heights& heights, Progress& progress) {
+  if (std::find(heights.known.begin(), heights.known.end(), false) == heights.known.end()) return;
+  const auto hard = lines_to_draw(survey, [](const SurveyLine& line) { return !line.z.empty(); });
+  Drawing base = draw(survey, merged, hard, progress);
+  if (base.vertices.xy.size() < 3) {
+    throw Error(
+        ErrorCode::TooFewPoints,
+        fmt::format(
+            "{} has no heights of its own, and three points with heights, from which it could get them, "
+            "are not there",
+            describe_line(survey, 0)));
+  }
+  Heights base_heights = resolve_heights(survey, base, options, progress);
+  const std::vector<ConstraintEdge> edges = constraint_edges(survey, base);
+  const Tin tin = triangulate(std::move(base.vertices.xy), std::move(base_heights.z), edges, progress);
+  const SurfaceLocator surface(tin);
+  progress.start_phase("heights of lines without");
+  TriangleId near;
+  for (std::uint32_t v = 0; v < heights.z.size(); ++v) {
+    if (heights.known[v]) continue;
+    progress.check();
+    const Point2 p = drawing.vertices.xy[v];
+    if (const auto place = surface.locate(p, near)) {
+      near = place->triangle;
+      heights.z[v] = surface.height(*place, p);
+    } else if (const auto z = height_at_rim(tin, p, drawing.noding.pixel)) {
+      heights.z[v] = *z;
+    } else {
+      refuse_outside(survey, drawing, v);
+    }
+  }
+  progress.advance(1);
+}
+
+// Vertices and what is known of each; the parts of a ground that is being built.
+struct Plan {
+  std::vector<Point2> xy;
+  std::vector<double> z;
+  std::vector<VertexOrigin> origins;
+  std::vector<std::uint32_t> now_of;  // for each vertex of the drawing its number; kInvalid: dropped
+};
+
+// Drops all vertices that are not kept, and numbers the others in their order.
+void keep_vertices(Plan& plan, const std::vector<bool>& keep) {
+  std::vector<std::uint32_t> number(keep.size(), VertexId::kInvalid);
+  std::uint32_t count = 0;
+  for (std::size_t v = 0; v < keep.size(); ++v) {
+    if (!keep[v]) continue;
+    number[v] = count;
+    plan.xy[count] = plan.xy[v];
+    plan.z[count] = plan.z[v];
+    plan.origins[count] = plan.origins[v];
+    ++count;
+  }
+  plan.xy.resize(count);
+  plan.z.resize(count);
+  plan.origins.resize(count);
+  for (std::uint32_t& now : plan.now_of) now = now == VertexId::kInvalid ? now : number[now];
+}
+
+[[noreturn]] void refuse_empty_region() {
+  throw Error(ErrorCode::EmptyInput, "no ground lies inside of the boundary and outside of the holes");
+}
+
+// Drops points beyond the box of the boundary that are on no line.
+void drop_far_points(const Survey& survey, const Drawing& drawing, Plan& plan) {
+  Box2 box;
+  std::vector<bool> keep(plan.xy.size());
+  for (const Passage& passage : drawing.passages) {
+    keep[passage.vertex] = true;
+    if (has(survey.lines[passage.line].kind, EdgeKind::Boundary)) box.add(plan.xy[passage.vertex]);
+  }
+  if (box.empty()) return;
+  if (!(box.width() > 0 && box.height() > 0)) refuse_empty_region();
+  for (std::size_t v = 0; v < keep.size(); ++v) keep[v] = keep[v] || box.contains(plan.xy[v]);
+  keep_vertices(plan, keep);
+}
+
+Tin keep_region(const Survey& survey, const Drawing& drawing, const Tin& hull, Plan& plan) {
+  std::vector<RingEdge> rings = ring_edges(survey, drawing);
+  for (RingEdge& edge : rings) edge = {plan.now_of[edge.low], plan.now_of[edge.high], edge.toggles};
+  const std::vector<bool> inside = inside_region(survey, hull, rings);
+  std::vector<bool> keep(plan.xy.size());
+  std::vector<Triangle> triangles;
+  std::vector<ConstraintEdge> constraints;
+  for (std::size_t t = 0; t < inside.size(); ++t) {
+    if (!inside[t]) continue;
+    triangles.push_back(hull.triangle(TriangleId{t}));
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(TriangleId{t}, side);
+      keep[hull.origin(h).index()] = true;
+      if (hull.constrained(h)) constraints.push_back({hull.origin(h), hull.target(h), hull.kind(h)});
+    }
+  }
+  if (triangles.empty()) refuse_empty_region();
+  std::vector<std::uint32_t> number(keep.size());
+  std::uint32_t count = 0;
+  for (std::size_t v = 0; v < keep.size(); ++v) number[v] = keep[v] ? count++ : VertexId::kInvalid;
+  const auto renumber = [&](VertexId& v) { v = VertexId{number[v.index()]}; };
+  for (Triangle& triangle : triangles) std::for_each(triangle.begin(), triangle.end(), renumber);
+  for (ConstraintEdge& edge : constraints) {
+    renumber(edge.a);
+    renumber(edge.b);
+  }
+  keep_vertices(plan, keep);
+  return {std::move(plan.xy), std::move(plan.z), std::move(triangles), constraints};
+}
+
+}  // namespace
+
 Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress) {
-  if (!survey.lines.empty()) throw Error(ErrorCode::Unsupported, "lines are not taken yet");
   MergedVertices merged = merge_vertices(survey, options.snap, progress);
+  check_rings(survey, merged);
+  const auto every = lines_to_draw(survey, [](const SurveyLine&) { return true; });
+  Drawing drawing = draw(survey, merged, every, progress);
+  Heights heights = resolve_heights(survey, drawing, options, progress);
+  drape(survey, merged, options, drawing, heights, progress);
+  merged = {};
+
   Ground ground;
-  std::vector<double> heights(merged.xy.size());
-  for (std::size_t v = 0; v < heights.size(); ++v) heights[v] = survey.points.z[merged.origins[v].index];
-  for (const std::uint32_t v : merged.of_point) ground.point_vertices.emplace_back(v);
-  ground.duplicates_merged = survey.points.xy.size() - merged.point_count;
-  ground.tin = triangulate(std::move(merged.xy), std::move(heights), {}, progress);
-  ground.origins = std::move(merged.origins);
+  ground.mode = has_region(survey) ? GroundMode::Polygon : GroundMode::Hull;
+  ground.pixel = drawing.noding.pixel;
+  ground.duplicates_merged = survey.points.xy.size() - drawing.vertices.point_count;
+  std::vector<ConstraintEdge> edges = constraint_edges(survey, drawing);
+
+  Plan plan{.xy = std::move(drawing.vertices.xy),
+            .z = std::move(heights.z),
+            .origins = std::move(drawing.vertices.origins),
+            .now_of = {}};
+  plan.now_of.resize(plan.xy.size());
+  for (std::size_t v = 0; v < plan.now_of.size(); ++v) plan.now_of[v] = static_cast<std::uint32_t>(v);
+  if (ground.mode == GroundMode::Polygon) drop_far_points(survey, drawing, plan);
+  for (ConstraintEdge& edge : edges) {
+    edge.a = VertexId{plan.now_of[edge.a.index()]};
+    edge.b = VertexId{plan.now_of[edge.b.index()]};
+  }
+  ground.tin = triangulate(std::move(plan.xy), std::move(plan.z), edges, progress);
+  if (ground.mode == GroundMode::Polygon) {
+    plan.xy.assign(ground.tin.points().begin(), ground.tin.points().end());
+    plan.z.assign(ground.tin.heights().begin(), ground.tin.heights().end());
+    ground.tin = keep_region(survey, drawing, ground.tin, plan);
+  }
+  ground.origins = std::move(plan.origins);
+  ground.point_vertices.reserve(drawing.vertices.of_point.size());
+  for (const std::uint32_t v : drawing.vertices.of_point) {
+    const std::uint32_t now = plan.now_of[v];
+    ground.point_vertices.push_back(now == VertexId::kInvalid ? VertexId{} : VertexId{now});
+  }
+  for (std::size_t v = 0; v < drawing.vertices.point_count; ++v) {
+    ground.outside_boundary += plan.now_of[v] == VertexId::kInvalid ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < heights.conflicts.size(); ++i) {
+    if (plan.now_of[heights.conflict_vertices[i]] == VertexId::kInvalid) continue;
+    ground.conflicts.push_back(std::move(heights.conflicts[i]));
+  }
+  for (const VertexOrigin& origin : ground.origins) {
+    ground.crossings += origin.kind == VertexOrigin::Kind::Crossing ? 1 : 0;
+  }
   return ground;
 }
 

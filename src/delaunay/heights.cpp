@@ -1,0 +1,285 @@
+// Which height a vertex gets.
+//
+// 1. Points: the height of the one that names the vertex; where several share it, the duplicate rule.
+// 2. Hard lines: at a vertex of theirs the height given there, on an edge the height between its ends. If all
+//    agree, that is the height (a given one rather than one between); else the crossing rule says.
+// 3. Heights between ends are rounded, and belong to a place that noding may have moved by up to a pixel. Two
+//    heights agree if they differ by no more than that can explain, or, both given, not at all.
+// 4. Each height that disagrees with the first one, and a point's that disagrees with the lines', is a
+// conflict. Means are sums of sorted heights, so they do not depend on the order of input.
+#include "heights.hpp"
+
+#include "provenance.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/delaunay/surface.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+// Interpolation rounds a handful of times, each time by at most half a unit in the last place.
+constexpr double kRounding = 0x1p-49;
+
+// What a hard line says about a vertex.
+struct Claim {
+  double z = 0;
+  double slack = 0;  // how far z may be off
+  Passage passage;
+  [[nodiscard]] bool given() const { return passage.where == Passage::Where::AtVertex; }
+};
+
+bool agree(const Claim& a, const Claim& b) {
+  return std::abs(a.z - b.z) <= a.slack + b.slack;
+}
+
+double mean(std::vector<double> heights) {
+  std::sort(heights.begin(), heights.end());
+  const double sum = std::accumulate(heights.begin(), heights.end(), 0.0);
+  return std::clamp(sum / static_cast<double>(heights.size()), heights.front(), heights.back());
+}
+
+// Pre: in file order, not empty.
+double choose(DuplicateRule rule, const std::vector<double>& heights) {
+  switch (rule) {
+    case DuplicateRule::First:
+      return heights.front();
+    case DuplicateRule::Last:
+      return heights.back();
+    case DuplicateRule::Lowest:
+      return *std::min_element(heights.begin(), heights.end());
+    case DuplicateRule::Highest:
+      return *std::max_element(heights.begin(), heights.end());
+    case DuplicateRule::Mean:
+      return mean(heights);
+  }
+  return heights.front();
+}
+
+// Pre: in order of lines, not empty; `kind` is what the lines are together.
+double choose(CrossingRule rule, const std::vector<double>& heights, EdgeKind kind) {
+  const double lowest = *std::min_element(heights.begin(), heights.end());
+  const double highest = *std::max_element(heights.begin(), heights.end());
+  switch (rule) {
+    case CrossingRule::First:
+      return heights.front();
+    case CrossingRule::Last:
+      return heights.back();
+    case CrossingRule::Lower:
+    case CrossingRule::Error:
+      return lowest;
+    case CrossingRule::Higher:
+      return highest;
+    case CrossingRule::Mean:
+      return mean(heights);
+    case CrossingRule::Auto:
+      break;
+  }
+  if (has(kind, EdgeKind::Valley)) return lowest;
+  return has(kind, EdgeKind::Ridge) ? highest : mean(heights);
+}
+
+class Resolver {
+ public:
+  Resolver(const Survey& survey, const Drawing& drawing, const GroundOptions& options)
+      : survey_(survey), drawing_(drawing), options_(options) {
+    const std::size_t count = drawing.vertices.xy.size();
+    heights_.z.resize(count);
+    heights_.known.resize(count);
+  }
+
+  Heights run(Progress& progress) {
+    const std::vector<std::uint32_t> more = later_points();
+    std::span<const std::uint32_t> later = more;
+    std::span<const Passage> passages = drawing_.passages;
+    constexpr std::size_t kStep = 1 << 14;
+    for (std::uint32_t v = 0; v < heights_.z.size(); ++v) {
+      if (v % kStep == 0) progress.check();
+      const auto split = [v](auto& all, const auto& vertex_of) {
+        std::size_t count = 0;
+        while (count < all.size() && vertex_of(all[count]) == v) ++count;
+        const auto here = all.first(count);
+        all = all.subspan(count);
+        return here;
+      };
+      if (v < drawing_.vertices.point_count) {
+        take_points(v, split(later, [&](std::uint32_t p) { return drawing_.vertices.of_point[p]; }));
+      }
+      take_lines(v, split(passages, [](const Passage& p) { return p.vertex; }));
+    }
+    return std::move(heights_);
+  }
+
+ private:
+  // The points that joined an earlier one, in order of vertices, then file order.
+  [[nodiscard]] std::vector<std::uint32_t> later_points() const {
+    const MergedVertices& vertices = drawing_.vertices;
+    std::vector<std::uint32_t> later;
+    for (std::uint32_t p = 0; p < vertices.of_point.size(); ++p) {
+      if (vertices.origins[vertices.of_point[p]].index != p) later.push_back(p);
+    }
+    std::stable_sort(later.begin(), later.end(),
+                     [&](auto p, auto q) { return vertices.of_point[p] < vertices.of_point[q]; });
+    return later;
+  }
+
+  void set(std::uint32_t v, double z) {
+    heights_.z[v] = z;
+    heights_.known[v] = true;
+  }
+
+  void report(Conflict::Kind kind, std::uint32_t v, double z_a, double z_b, std::string source_a,
+              std::string source_b) {
+    heights_.conflict_vertices.push_back(v);
+    heights_.conflicts.push_back(
+        {kind, drawing_.vertices.xy[v], z_a, z_b, heights_.z[v], std::move(source_a), std::move(source_b)});
+  }
+
+  void take_points(std::uint32_t v, std::span<const std::uint32_t> later) {
+    const std::uint32_t first = drawing_.vertices.origins[v].index;
+    const double z = survey_.points.z[first];
+    set(v, z);
+    if (later.empty()) return;
+    std::vector<double> all{z};
+    for (const std::uint32_t p : later) all.push_back(survey_.points.z[p]);
+    set(v, choose(options_.duplicates, all));
+    for (const std::uint32_t p : later) {
+      if (survey_.points.z[p] == z) continue;
+      report(Conflict::Kind::DuplicatePoint, v, z, survey_.points.z[p], describe_point(survey_, first),
+             describe_point(survey_, p));
+    }
+  }
+
+  void take_lines(std::uint32_t v, std::span<const Passage> passages) {
+    if (passages.empty()) return;
+    if (options_.crossing == CrossingRule::Error) refuse_contacts(v, passages);
+    const std::vector<Claim> claims = claims_of(v, passages);
+    if (claims.empty()) return;
+    const bool is_point = v < drawing_.vertices.point_count;
+    const Claim point{.z = heights_.z[v], .slack = 0, .passage = {}};
+    const Claim& first = claims.front();
+    set(v, settle(v, claims));
+    for (const Claim& claim : claims) {
+      if (agree(claim, first)) continue;
+      report(claim.given() && first.given() ? Conflict::Kind::LineVertex : Conflict::Kind::Crossing, v,
+             first.z, claim.z, describe(first), describe(claim));
+    }
+    const bool all_agree =
+        std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) { return agree(point, claim); });
+    if (is_point && !all_agree) {
+      report(Conflict::Kind::PointOnLine, v, point.z, first.z,
+             describe_point(survey_, drawing_.vertices.origins[v].index), describe(first));
+    }
+  }
+
+  // The height that the lines agree on, or that the rule gives. A given height comes before the others.
+  [[nodiscard]] double settle(std::uint32_t v, std::span<const Claim> claims) const {
+    const Claim& first = claims.front();
+    const auto other =
+        std::find_if(claims.begin(), claims.end(), [&](const Claim& claim) { return !agree(claim, first); });
+    if (other == claims.end() && first.given()) return first.z;
+    if (other != claims.end() && options_.crossing == CrossingRule::Error) {
+      throw Error(ErrorCode::CrossingLines,
+                  fmt::format("{} and {} meet at {} with heights {} and {}; choose one with --crossing",
+                              describe(first), describe(*other), describe_place(drawing_.vertices.xy[v]),
+                              first.z, other->z));
+    }
+    std::vector<double> all;
+    EdgeKind kind = EdgeKind::None;
+    for (const Claim& claim : claims) {
+      all.push_back(claim.z);
+      kind = kind | survey_.lines[claim.passage.line].kind;
+    }
+    return choose(options_.crossing, all, kind);
+  }
+
+  // In order of lines, but given heights first where all agree with one; a line says the same only once.
+  [[nodiscard]] std::vector<Claim> claims_of(std::uint32_t v, std::span<const Passage> passages) const {
+    std::vector<Claim> claims;
+    for (const Passage& passage : passages) {
+      const SurveyLine& line = survey_.lines[passage.line];
+      if (line.z.empty()) continue;
+      const Claim claim = claim_of(v, passage, line);
+      const bool said = std::any_of(claims.begin(), claims.end(), [&](const Claim& other) {
+        return other.passage.line == passage.line && other.z == claim.z;
+      });
+      if (!said) claims.push_back(claim);
+    }
+    const auto given = std::find_if(claims.begin(), claims.end(), [](const Claim& c) { return c.given(); });
+    if (given != claims.end() &&
+        std::all_of(claims.begin(), claims.end(), [&](const Claim& c) { return agree(c, *given); })) {
+      std::rotate(claims.begin(), given, given + 1);
+    }
+    return claims;
+  }
+
+  [[nodiscard]] Claim claim_of(std::uint32_t v, const Passage& passage, const SurveyLine& line) const {
+    const double z_a = line.z[passage.at];
+    if (passage.where == Passage::Where::AtVertex) return {z_a, 0, passage};
+    const double z_b = line.z[passage.at + 1];
+    const MergedVertices& vertices = drawing_.vertices;
+    const Point2 a = vertices.xy[vertices.of_line(passage.line, passage.at)];
+    const Point2 b = vertices.xy[vertices.of_line(passage.line, passage.at + 1)];
+    const double slope = std::abs(z_b - z_a) / std::hypot(b.x - a.x, b.y - a.y);
+    const double rounding = z_a == z_b ? 0 : kRounding * std::max(std::abs(z_a), std::abs(z_b));
+    const double slack = slope * drawing_.noding.pixel + rounding;
+    return {interpolate_on_segment(a, z_a, b, z_b, vertices.xy[v]), slack, passage};
+  }
+
+  [[nodiscard]] std::string describe(const Claim& claim) const { return describe(claim.passage); }
+  [[nodiscard]] std::string describe(const Passage& passage) const {
+    return passage.where == Passage::Where::AtVertex ? describe_line_vertex(survey_, passage.line, passage.at)
+                                                     : describe_line_edge(survey_, passage.line, passage.at);
+  }
+
+  // Lines that meet at vertices of their own are noded already: that is no crossing.
+  void refuse_contacts(std::uint32_t v, std::span<const Passage> passages) const {
+    for (const Passage& one : passages) {
+      if (one.where != Passage::Where::OnEdge) continue;
+      for (const Passage& other : passages) {
+        if (&one == &other || is_harmless(one, other)) continue;
+        throw Error(
+            ErrorCode::CrossingLines,
+            fmt::format("{} and {} cross, touch or overlap at {}; repair them, or say with --crossing which "
+                        "height counts there",
+                        describe(one), describe(other), describe_place(drawing_.vertices.xy[v])));
+      }
+    }
+  }
+
+  // A boundary or hole may cut lines; neighbouring pieces of one line may come back to their common vertex.
+  [[nodiscard]] bool is_harmless(const Passage& one, const Passage& other) const {
+    constexpr EdgeKind kArea = EdgeKind::Boundary | EdgeKind::Hole;
+    const EdgeKind kinds = survey_.lines[one.line].kind | survey_.lines[other.line].kind;
+    if (has(kinds, kArea)) return true;
+    const std::uint32_t apart = std::max(one.at, other.at) - std::min(one.at, other.at);
+    return one.line == other.line && apart <= 2;
+  }
+
+  const Survey& survey_;
+  const Drawing& drawing_;
+  const GroundOptions& options_;
+  Heights heights_;
+};
+
+}  // namespace
+
+Heights resolve_heights(const Survey& survey, const Drawing& drawing, const GroundOptions& options,
+                        Progress& progress) {
+  progress.start_phase("settling heights");
+  Heights heights = Resolver(survey, drawing, options).run(progress);
+  progress.advance(1);
+  return heights;
+}
+
+}  // namespace thalweg

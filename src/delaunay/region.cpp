@@ -1,0 +1,134 @@
+// Inside and outside by flooding.
+//
+// 1. A membership is a bit pattern of 64: bit 0 is the parity of boundary rings; each area of holes (a
+// feature)
+//    has a pattern of its own in the other bits, and a triangle has the exclusive or of those of the areas
+//    that it is in. So it is in none exactly if these bits are 0: patterns of distinct areas differ, so two
+//    areas never cancel out; three or more that overlap in one place might, with probability 2^-63.
+// 2. Rings are closed walks, so the exclusive or of the patterns that a path crosses depends only on its
+// ends:
+//    noding may bend a ring, or fold parts of it upon each other, which then cancel out.
+// 3. Flood from the rim, outside of which the pattern is 0, from triangle to triangle.
+#include "region.hpp"
+
+#include "provenance.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::uint64_t kBoundary = 1;
+
+bool is_ring(const SurveyLine& line) {
+  return has(line.kind, EdgeKind::Boundary | EdgeKind::Hole);
+}
+
+// splitmix64 (Steele, Lea, Flood, 2014): a bijection, so numbers below 2^63 have distinct patterns.
+std::uint64_t pattern_of(std::uint64_t area) {
+  std::uint64_t value = (area + 1) * 0x9e3779b97f4a7c15U;
+  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
+  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
+  return (value ^ (value >> 31U)) | kBoundary;
+}
+
+std::uint64_t toggles_at(std::span<const RingEdge> edges, VertexId a, VertexId b) {
+  const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(a.value(), b.value());
+  const auto found =
+      std::lower_bound(edges.begin(), edges.end(), key, [](const RingEdge& edge, const auto& k) {
+        return std::tie(edge.low, edge.high) < std::tie(k.first, k.second);
+      });
+  return found != edges.end() && found->low == key.first && found->high == key.second ? found->toggles : 0;
+}
+
+}  // namespace
+
+bool has_region(const Survey& survey) {
+  return std::any_of(survey.lines.begin(), survey.lines.end(), is_ring);
+}
+
+void check_rings(const Survey& survey, const MergedVertices& merged) {
+  for (std::size_t l = 0; l < survey.lines.size(); ++l) {
+    const SurveyLine& line = survey.lines[l];
+    if (!is_ring(line) || line.xy.empty()) continue;
+    if (merged.of_line(l, 0) == merged.of_line(l, line.xy.size() - 1)) continue;
+    throw Error(ErrorCode::WrongGeometry,
+                describe_line(survey, l) +
+                    " is used as a boundary or hole, but is not closed: its first vertex " +
+                    describe_place(line.xy.front()) + " and its last " + describe_place(line.xy.back()) +
+                    " differ; give polygons or closed lines, or close it with --snap DISTANCE");
+  }
+}
+
+std::vector<RingEdge> ring_edges(const Survey& survey, const Drawing& drawing) {
+  std::map<std::pair<std::uint32_t, std::int64_t>, std::uint64_t> area_numbers;
+  std::vector<RingEdge> edges;
+  for (std::size_t s = 0; s < drawing.pieces.size(); ++s) {
+    const SurveyLine& line = survey.lines[drawing.pieces[s].line];
+    if (!is_ring(line)) continue;
+    std::uint64_t toggles = has(line.kind, EdgeKind::Boundary) ? kBoundary : 0;
+    if (has(line.kind, EdgeKind::Hole)) {
+      const auto area = area_numbers.emplace(std::pair(line.source, line.feature), area_numbers.size()).first;
+      toggles |= pattern_of(area->second) & ~kBoundary;
+    }
+    const auto chain = drawing.noding.chain(s);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const auto [low, high] = std::minmax(chain[i], chain[i + 1]);
+      edges.push_back({low, high, toggles});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const RingEdge& p, const RingEdge& q) {
+    return std::tie(p.low, p.high) < std::tie(q.low, q.high);
+  });
+  std::size_t count = 0;
+  for (const RingEdge& edge : edges) {
+    if (count > 0 && edges[count - 1].low == edge.low && edges[count - 1].high == edge.high) {
+      edges[count - 1].toggles ^= edge.toggles;
+    } else {
+      edges[count++] = edge;
+    }
+  }
+  edges.resize(count);
+  return edges;
+}
+
+std::vector<bool> inside_region(const Survey& survey, const Tin& tin, std::span<const RingEdge> edges) {
+  const bool bounded = std::any_of(survey.lines.begin(), survey.lines.end(),
+                                   [](const SurveyLine& line) { return has(line.kind, EdgeKind::Boundary); });
+  std::vector<std::uint64_t> pattern(tin.triangle_count());
+  std::vector<bool> reached(tin.triangle_count());
+  std::vector<TriangleId> stack;
+  const auto reach = [&](TriangleId t, std::uint64_t from, HalfedgeId across) {
+    if (reached[t.index()]) return;
+    reached[t.index()] = true;
+    pattern[t.index()] =
+        tin.constrained(across) ? from ^ toggles_at(edges, tin.origin(across), tin.target(across)) : from;
+    stack.push_back(t);
+  };
+  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (tin.on_rim(h)) reach(Tin::triangle_of(h), 0, h);
+  }
+  while (!stack.empty()) {
+    const TriangleId t = stack.back();
+    stack.pop_back();
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (!tin.on_rim(h)) reach(Tin::triangle_of(tin.twin(h)), pattern[t.index()], h);
+    }
+  }
+  std::vector<bool> inside(pattern.size());
+  for (std::size_t t = 0; t < inside.size(); ++t) {
+    const bool in_boundary = !bounded || (pattern[t] & kBoundary) != 0;
+    inside[t] = in_boundary && (pattern[t] & ~kBoundary) == 0;
+  }
+  return inside;
+}
+
+}  // namespace thalweg

@@ -1,0 +1,35 @@
+#pragma once
+
+/// The ground inside of boundaries and outside of holes.
+
+#include "drawing.hpp"
+
+#include <thalweg/mesh/tin.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+/// A piece of a ring in a triangulation. Whoever crosses it changes the memberships in `toggles`.
+struct RingEdge {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  std::uint64_t toggles = 0;
+};
+
+/// True if the survey has a line of kind Boundary or Hole.
+bool has_region(const Survey& survey);
+
+/// Throws: Error{WrongGeometry} naming the first boundary or hole ring that is not closed.
+void check_rings(const Survey& survey, const MergedVertices& merged);
+
+/// The pieces of all rings, between vertices of the drawing; what is drawn twice may cancel out.
+std::vector<RingEdge> ring_edges(const Survey& survey, const Drawing& drawing);
+
+/// For each triangle: true if it lies inside an odd number of boundary rings (or there is none) and in no
+/// hole. Pre: the ring edges, in order of (low, high), are constraint edges of the TIN.
+std::vector<bool> inside_region(const Survey& survey, const Tin& tin, std::span<const RingEdge> edges);
+
+}  // namespace thalweg
