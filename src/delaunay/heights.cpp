@@ -1,6 +1,6 @@
 // Which height a vertex gets.
 //
-// 1. Points: the height of the one that names the vertex; where several share it, the duplicate rule.
+// 1. Points: the height of the only one at the vertex; where several share it, the duplicate rule.
 // 2. Hard lines: at a vertex of theirs the height given there, on an edge the height between its ends. If all
 //    agree, that is the height (a given one rather than one between); else the crossing rule says.
 // 3. Heights between ends are rounded, and belong to a place that noding may have moved by up to a pixel. Two
@@ -99,7 +99,7 @@ class Resolver {
   }
 
   Heights run(Progress& progress) {
-    const std::vector<std::uint32_t> more = later_points();
+    const std::vector<std::uint32_t> more = find_first_points();
     std::span<const std::uint32_t> later = more;
     std::span<const Passage> passages = drawing_.passages;
     constexpr std::size_t kStep = 1 << 14;
@@ -121,12 +121,18 @@ class Resolver {
   }
 
  private:
-  // The points that joined an earlier one, in order of vertices, then file order.
-  [[nodiscard]] std::vector<std::uint32_t> later_points() const {
+  // Finds each vertex's first point; returns the others, in order of vertices, then file order.
+  std::vector<std::uint32_t> find_first_points() {
     const MergedVertices& vertices = drawing_.vertices;
+    first_point_.assign(vertices.point_count, VertexId::kInvalid);
     std::vector<std::uint32_t> later;
     for (std::uint32_t p = 0; p < vertices.of_point.size(); ++p) {
-      if (vertices.origins[vertices.of_point[p]].index != p) later.push_back(p);
+      std::uint32_t& first = first_point_[vertices.of_point[p]];
+      if (first == VertexId::kInvalid) {
+        first = p;
+      } else {
+        later.push_back(p);
+      }
     }
     std::stable_sort(later.begin(), later.end(),
                      [&](auto p, auto q) { return vertices.of_point[p] < vertices.of_point[q]; });
@@ -146,7 +152,7 @@ class Resolver {
   }
 
   void take_points(std::uint32_t v, std::span<const std::uint32_t> later) {
-    const std::uint32_t first = drawing_.vertices.origins[v].index;
+    const std::uint32_t first = first_point_[v];
     const double z = survey_.points.z[first];
     set(v, z);
     if (later.empty()) return;
@@ -177,8 +183,8 @@ class Resolver {
     const bool all_agree =
         std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) { return agree(point, claim); });
     if (is_point && !all_agree) {
-      report(Conflict::Kind::PointOnLine, v, point.z, first.z,
-             describe_point(survey_, drawing_.vertices.origins[v].index), describe(first));
+      report(Conflict::Kind::PointOnLine, v, point.z, first.z, describe_point(survey_, first_point_[v]),
+             describe(first));
     }
   }
 
@@ -269,6 +275,7 @@ class Resolver {
   const Survey& survey_;
   const Drawing& drawing_;
   const GroundOptions& options_;
+  std::vector<std::uint32_t> first_point_;  // of each vertex that is a point
   Heights heights_;
 };
 

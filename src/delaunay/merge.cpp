@@ -183,6 +183,9 @@ MergedVertices merge_vertices(const Survey& survey, double snap, Progress& progr
   const std::vector<std::uint32_t> representative = find_representatives(all, point_count, snap);
   progress.advance(0.5);
 
+  const auto origin_of = [&](std::uint32_t i) {
+    return i < point_count ? VertexOrigin{VertexOrigin::Kind::Point, i, 0} : line_origins[i - point_count];
+  };
   // Number the groups by their first members; `number` is indexed by representatives.
   constexpr std::uint32_t kNone = VertexId::kInvalid;
   std::vector<std::uint32_t> number(all.size(), kNone);
@@ -192,9 +195,7 @@ MergedVertices merge_vertices(const Survey& survey, double snap, Progress& progr
     if (vertex == kNone) {
       vertex = static_cast<std::uint32_t>(merged.xy.size());
       merged.xy.push_back(all[representative[i]]);
-      merged.origins.push_back(i < point_count
-                                   ? VertexOrigin{VertexOrigin::Kind::Point, static_cast<std::uint32_t>(i), 0}
-                                   : line_origins[i - point_count]);
+      merged.origins.push_back(origin_of(representative[i]));
     }
     vertex_of[i] = vertex;
     if (i + 1 == point_count) merged.point_count = merged.xy.size();

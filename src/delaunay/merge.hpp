@@ -12,7 +12,7 @@ namespace thalweg {
 /// Distinct vertices in order of first appearance: points, then line vertices.
 struct MergedVertices {
   std::vector<Point2> xy;
-  std::vector<VertexOrigin> origins;
+  std::vector<VertexOrigin> origins;       ///< whose position it is
   std::size_t point_count = 0;             ///< vertices [0, point_count) are points
   std::vector<std::uint32_t> of_point;     ///< the vertex of each point of the survey
   std::vector<std::size_t> first_of_line;  ///< where the vertices of line l start in of_line_vertex

@@ -36,7 +36,7 @@ struct GroundOptions {
   CrossingRule crossing = CrossingRule::Auto;
 };
 
-/// Where a vertex of the ground comes from; what came first names it.
+/// Where a vertex of the ground comes from: what has its very position, first in the order of ids.
 struct VertexOrigin {
   enum class Kind : std::uint8_t { Point, LineVertex, Crossing };
   Kind kind = Kind::Point;
@@ -50,11 +50,11 @@ struct Ground {
   Tin tin;
   std::vector<VertexOrigin> origins;     ///< one a vertex
   std::vector<VertexId> point_vertices;  ///< for each point of the survey; invalid: outside of the boundary
-  std::vector<Conflict> conflicts;       ///< every height that disagrees at a vertex of the TIN, in order of ids
-  std::size_t duplicates_merged = 0;     ///< points that joined an earlier one
-  std::size_t outside_boundary = 0;      ///< distinct points that were dropped
-  std::size_t crossings = 0;             ///< vertices that are neither points nor line vertices
-  double pixel = 0;                      ///< no line was moved so far; plane units; 0 without lines
+  std::vector<Conflict> conflicts;    ///< every height that disagrees at a vertex of the TIN, in order of ids
+  std::size_t duplicates_merged = 0;  ///< points that joined an earlier one
+  std::size_t outside_boundary = 0;   ///< distinct points that were dropped
+  std::size_t crossings = 0;          ///< vertices that are neither points nor line vertices
+  double pixel = 0;                   ///< no line was moved so far; plane units; 0 without lines
   GroundMode mode = GroundMode::Hull;
 };
 
