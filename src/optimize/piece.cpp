@@ -1,0 +1,144 @@
+// Pieces: cutting them out, and solving those that are narrow.
+//
+// Exact solution. Without weights: a minimum spanning forest. Otherwise bucket elimination over the variables
+// and over the auxiliary ones of long cuts, with the cuts that are known to matter; then those that the
+// labels fail are added, until none is (cuts.cpp says why this ends, and with an optimum). A long cut is a
+// chain of clauses, and the order along the chain decides the width: it follows the elimination tree of the
+// terms that are short, so that what is eliminated together is close in the chain, and a table sees but the
+// two ends of a stretch of it.
+#include "optimize/piece.hpp"
+
+#include <thalweg/base/assert.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace thalweg {
+
+template <std::size_t Criteria>
+Labelling<Criteria> restrict_to(const Labelling<Criteria>& problem, const Reduction& fixed,
+                                std::span<const std::uint32_t> node, const Selection& selection) {
+  Labelling<Criteria> part;
+  const std::size_t count = selection.variables.size();
+  part.unary.reserve(count);
+  part.first.reserve(count + 1);
+  std::vector<std::pair<std::uint32_t, Weight<Criteria>>> row;
+  std::map<NodePair, std::uint32_t> number;  // of block and node
+  for (const std::uint32_t q : selection.variables) {
+    Cost<Criteria> unary = problem.unary[q];
+    row.clear();
+    for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
+      const std::uint32_t p = problem.neighbour[i];
+      if (fixed.label[p] == Label::One) add(unary, problem.weight[i]);
+      if (fixed.label[p] != Label::Open || problem.weight[i] == Weight<Criteria>{}) continue;
+      row.emplace_back(selection.index[p], problem.weight[i]);
+    }
+    std::sort(row.begin(), row.end());
+    for (const auto& [neighbour, weight] : row) {
+      part.neighbour.push_back(neighbour);
+      part.weight.push_back(weight);
+    }
+    part.unary.push_back(unary);
+    part.first.push_back(static_cast<std::uint32_t>(part.neighbour.size()));
+    if (fixed.block[q] == kNone) continue;
+    const auto number_of = [&](std::uint32_t end) {
+      const auto next = static_cast<std::uint32_t>(number.size());
+      return number.try_emplace({fixed.block[q], node[end]}, next).first->second;
+    };
+    part.link.resize(count);
+    Link& link = part.link[part.unary.size() - 1];
+    link = problem.link[q];
+    link.a = number_of(link.a);
+    link.b = number_of(link.b);
+  }
+  part.node_count = static_cast<std::uint32_t>(number.size());
+  return part;
+}
+
+template <std::size_t Criteria>
+Cost<Criteria> cost_of(const Labelling<Criteria>& problem, std::span<const Label> label) {
+  Cost<Criteria> cost;
+  for (std::uint32_t q = 0; q < problem.size(); ++q) {
+    if (label[q] != Label::One) continue;
+    cost += problem.unary[q];
+    for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
+      if (problem.neighbour[i] < q && label[problem.neighbour[i]] == Label::One) add(cost, problem.weight[i]);
+    }
+  }
+  return cost;
+}
+
+template <std::size_t Criteria>
+std::vector<PairCost<Criteria>> pairs_of(const Labelling<Criteria>& problem) {
+  std::vector<PairCost<Criteria>> pairs;
+  pairs.reserve(problem.neighbour.size() / 2);
+  for (std::uint32_t q = 0; q < problem.size(); ++q) {
+    for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
+      if (problem.neighbour[i] < q) pairs.push_back({problem.neighbour[i], q, problem.weight[i]});
+    }
+  }
+  return pairs;
+}
+
+template <std::size_t Criteria>
+Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Criteria>> pairs,
+                std::span<const Cut> cuts) {
+  const auto is_long = [](const Cut& cut) { return cut.size() > std::tuple_size_v<Clause>; };
+  std::size_t count = problem.size();
+  std::vector<Cut> short_cuts;
+  for (const Cut& cut : cuts) {
+    count += is_long(cut) ? cut.size() - std::tuple_size_v<Clause> : 0;
+    if (!is_long(cut)) short_cuts.push_back(cut);
+  }
+  std::vector<std::uint32_t> numbers;
+  if (count > problem.size()) {
+    const std::vector<Clause> clauses = split_cuts(short_cuts, {}, 0);
+    const TermSum<Criteria> sum{problem.size(), problem.unary, pairs, clauses};
+    const auto unlimited = static_cast<std::uint32_t>(problem.size());
+    numbers = tree_numbers(find_elimination_order(problem.size(), interactions(sum), unlimited));
+  }
+  return {split_cuts(cuts, numbers, static_cast<std::uint32_t>(problem.size())), count};
+}
+
+template <std::size_t Criteria>
+std::optional<ExactLabels> solve_exactly(const Labelling<Criteria>& problem, std::uint32_t width_limit,
+                                         const Progress& progress) {
+  if (problem.neighbour.empty()) return ExactLabels{span_at_least_cost(problem)};
+  const std::vector<PairCost<Criteria>> pairs = pairs_of(problem);
+  const std::vector<Label> none(problem.size(), Label::Open);
+  std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
+  ExactLabels exact;
+  while (true) {
+    const Clauses clauses = shorten<Criteria>(problem, pairs, cuts);
+    const TermSum<Criteria> sum{clauses.variable_count, problem.unary, pairs, clauses.clauses};
+    const EliminationOrder order =
+        find_elimination_order(clauses.variable_count, interactions(sum), width_limit);
+    if (!order.complete) return std::nullopt;
+    exact.width = std::max(exact.width, order.width);
+    exact.table_entries += table_entries(order);
+    Minimum<Criteria> minimum = minimise(sum, order, progress);
+    THALWEG_ASSERT(!minimum.value.is_infeasible());
+    minimum.label.resize(problem.size());
+    const std::vector<Cut> failed = failed_cuts(problem.link, problem.node_count, minimum.label);
+    if (failed.empty()) {
+      exact.label = std::move(minimum.label);
+      return exact;
+    }
+    cuts.insert(cuts.end(), failed.begin(), failed.end());
+  }
+}
+
+template Labelling<1> restrict_to(const Labelling<1>&, const Reduction&, std::span<const std::uint32_t>,
+                                  const Selection&);
+template Labelling<2> restrict_to(const Labelling<2>&, const Reduction&, std::span<const std::uint32_t>,
+                                  const Selection&);
+template Cost<1> cost_of(const Labelling<1>&, std::span<const Label>);
+template Cost<2> cost_of(const Labelling<2>&, std::span<const Label>);
+template std::vector<PairCost<1>> pairs_of(const Labelling<1>&);
+template std::vector<PairCost<2>> pairs_of(const Labelling<2>&);
+template Clauses shorten(const Labelling<1>&, std::span<const PairCost<1>>, std::span<const Cut>);
+template Clauses shorten(const Labelling<2>&, std::span<const PairCost<2>>, std::span<const Cut>);
+template std::optional<ExactLabels> solve_exactly(const Labelling<1>&, std::uint32_t, const Progress&);
+template std::optional<ExactLabels> solve_exactly(const Labelling<2>&, std::uint32_t, const Progress&);
+
+}  // namespace thalweg

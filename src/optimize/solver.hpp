@@ -1,0 +1,19 @@
+#pragma once
+
+/// Solves a labelling problem: exactly where it is narrow, else with a bound.
+
+#include "optimize/decomposition.hpp"
+
+namespace thalweg {
+
+struct SolverLimits {
+  std::uint32_t width = 18;
+  std::uint64_t effort = 0;  ///< table entries for all that is wider, in proportion to the size of pieces
+};
+
+/// Arguments and promises as for `decompose`.
+template <std::size_t Criteria>
+Solution<Criteria> solve(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
+                         const SolverLimits& limits, const Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,16 @@
+#pragma once
+
+/// A good labelling and a bound for a problem that is too wide to be solved.
+
+#include "optimize/decomposition.hpp"
+
+namespace thalweg {
+
+/// `first_level_bound`: a known bound of the first level. Pre: the problem has weights.
+/// Complexity: O(effort) table entries, at least a few rounds. The result depends on nothing but the
+/// arguments.
+template <std::size_t Criteria>
+Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::int64_t first_level_bound,
+                           std::uint32_t width_limit, std::uint64_t effort, const Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,124 @@
+// The solver on abstract problems against trying every labelling.
+#include "optimize/solver.hpp"
+
+#include "optimize/roof_duality.hpp"
+#include "support/random_labelling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace thalweg::test {
+namespace {
+
+std::vector<std::uint32_t> identity(std::size_t count) {
+  std::vector<std::uint32_t> rank(count);
+  std::iota(rank.begin(), rank.end(), std::uint32_t{0});
+  return rank;
+}
+
+template <std::size_t Criteria>
+void expect_exact(const Labelling<Criteria>& problem) {
+  const Progress progress;
+  const Solution<Criteria> solution = solve<Criteria>(problem, identity(problem.size()), {}, progress);
+  EXPECT_TRUE(connects_all(problem, solution.label));
+  EXPECT_EQ(plain_cost(problem, solution.label), solution.value);
+  EXPECT_EQ(solution.value, plain_minimum(problem));
+  EXPECT_EQ(solution.bound, solution.value);
+}
+
+template <std::size_t Criteria>
+bool expect_bracket(const Labelling<Criteria>& problem, std::uint32_t width, std::uint64_t effort) {
+  const Progress progress;
+  const Solution<Criteria> solution =
+      solve<Criteria>(problem, identity(problem.size()), {width, effort}, progress);
+  const Cost<Criteria> best = plain_minimum(problem);
+  EXPECT_TRUE(connects_all(problem, solution.label));
+  EXPECT_EQ(plain_cost(problem, solution.label), solution.value);
+  EXPECT_FALSE(best < solution.bound);
+  EXPECT_FALSE(solution.value < best);
+  return solution.value == best;
+}
+
+TEST(Solver, FindsTheLeastCost) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 400 && !HasFailure(); ++i) {
+    const LabellingShape shape{.variables = random.integer<std::size_t>(0, 10),
+                               .pairs_per_variable = random.real(0.3, 2.5),
+                               .range = random.integer(1, 8)};
+    expect_exact(random_labelling<1>(shape, random));
+    expect_exact(random_labelling<2>(shape, random));
+  }
+}
+
+TEST(Solver, FindsTheLeastCostThatConnects) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 1000 && !HasFailure(); ++i) {
+    const LabellingShape shape{.variables = random.integer<std::size_t>(1, 10),
+                               .pairs_per_variable = random.real(0, 2),
+                               .nodes = random.integer<std::size_t>(1, 7),
+                               .range = random.integer(1, 8)};
+    expect_exact(random_labelling<1>(shape, random));
+  }
+}
+
+TEST(Solver, SpansWithoutWeights) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+    const LabellingShape shape{
+        .variables = 10, .pairs_per_variable = 0, .nodes = random.integer<std::size_t>(2, 8)};
+    expect_exact(random_labelling<1>(shape, random));
+  }
+}
+
+TEST(Solver, BracketsWhatIsTooWide) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  int met = 0, all = 0;
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    const LabellingShape shape{.variables = 10,
+                               .pairs_per_variable = random.real(1, 4),
+                               .nodes = random.integer<std::size_t>(0, 5),
+                               .range = 20};
+    for (const std::uint32_t width : {1U, 2U, 3U}) {
+      met += expect_bracket(random_labelling<1>(shape, random), width, 20000) ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_GT(met, all * 8 / 10);
+}
+
+TEST(RoofDuality, FixesWhatEveryOptimumHas) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  const Progress progress;
+  std::size_t fixed = 0;
+  for (int i = 0; i < 400 && !HasFailure(); ++i) {
+    const LabellingShape shape{.variables = random.integer<std::size_t>(1, 9),
+                               .pairs_per_variable = random.real(0, 2),
+                               .nodes = random.integer<std::size_t>(0, 5),
+                               .range = random.integer(1, 8)};
+    Labelling<1> problem = random_labelling<1>(shape, random);
+    const std::int64_t best = plain_minimum(problem).level[0];
+    const RoofDual dual = find_roof_dual(problem, progress);
+    EXPECT_LE(dual.bound, best);
+    for (std::size_t q = 0; q < problem.size(); ++q) {
+      if (dual.label[q] == Label::Open) continue;
+      ++fixed;
+      Labelling<1> other_way =
+          problem;  // with the other label made so dear that it costs more than all the rest
+      const std::int64_t dear = 1000;
+      other_way.unary[q].level[0] += dual.label[q] == Label::One ? dear : -dear;
+      const std::int64_t with_other =
+          plain_minimum(other_way).level[0] + (dual.label[q] == Label::One ? 0 : dear);
+      EXPECT_GT(with_other, best);
+    }
+  }
+  EXPECT_GT(fixed, 400U);
+}
+
+}  // namespace
+}  // namespace thalweg::test
