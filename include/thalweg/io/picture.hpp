@@ -23,13 +23,14 @@ struct PictureScene {
   std::span<const std::array<VertexId, 2>> flipped =
       {};  ///< edges of this TIN that the Delaunay TIN does not have
   std::string title = {};
-  int width_px = 1600;  ///< of the whole picture; PDF and SVG have the same size in points
+  std::string target = {};  ///< the file's name in errors; empty: `path`
+  int width_px = 1600;      ///< of the whole picture; PDF and SVG have the same size in points
 };
 
 /// Draws the map to the file `path`. `extension` (".png", ".svg" or ".pdf", any case) decides the format.
 /// Detail follows the scale: triangles thin out as they get small, symbols shrink where they are many; in SVG
 /// and PDF the relief of a large TIN is an embedded image. Equal input gives equal bytes in PNG and PDF.
-/// Throws: Error{Usage} for another extension or a width outside 400 to 16000; Error{EmptyInput} if there is
+/// Throws: Error{Usage} for another extension or a width outside 400 to 8000; Error{EmptyInput} if there is
 /// no triangle; Error{WriteFailed}; Error{Cancelled}.
 void draw_picture(const std::string& path, const std::string& extension, const PictureScene& scene,
                   Progress& progress);

@@ -1,0 +1,53 @@
+#pragma once
+
+/// The legend of a picture: colours of heights, symbols with their counts, scale bar.
+
+#include "io/picture_map.hpp"
+
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+/// A column of the ramp of heights and of rows with symbol, label and count. Knows its size before it is
+/// drawn.
+class Legend {
+ public:
+  /// `canvas` is only measured. Sizes follow `font_size`.
+  Legend(Canvas& canvas, const PictureScene& scene, const ReliefStyle& style, double font_size);
+  [[nodiscard]] double width() const { return width_; }
+  [[nodiscard]] double height() const;
+  void draw(Canvas& canvas, double left, double top) const;
+
+ private:
+  enum class Symbol : std::uint8_t { None, Line, Flipped, Outline, PitBefore, PitAfter };
+  struct Row {
+    Symbol symbol = Symbol::None;
+    std::string label;
+    std::string count;
+    LineStyle line = {};
+  };
+  struct Tick {
+    double position;  ///< 0 at the low end of the ramp, 1 at the high end
+    std::string label;
+  };
+  void list_rows(const PictureScene& scene);
+  void list_ticks(const PictureScene& scene);
+  void draw_ramp(Canvas& canvas, double left, double top) const;
+  void draw_symbol(Canvas& canvas, const Row& row, double left, double middle) const;
+  [[nodiscard]] double row_height() const { return 1.65 * font_size_; }
+  [[nodiscard]] double symbol_width() const { return 2.4 * font_size_; }
+  [[nodiscard]] double ramp_height() const { return 13 * font_size_; }
+
+  const ReliefStyle& style_;
+  double font_size_;
+  double width_ = 0;
+  std::vector<Row> rows_;
+  std::vector<Tick> ticks_;
+};
+
+/// Draws a scale bar of a round length, at most `most` pixels long, with its left end at (left, middle).
+void draw_scale_bar(Canvas& canvas, double left, double middle, double most, double metres_per_pixel,
+                    double font_size);
+
+}  // namespace thalweg
