@@ -8,7 +8,7 @@
   5. A header has fewer than 150 lines, a source fewer than 500.
   6. No file or folder is called misc, utils, common, helpers or manager; no CMake file globs.
   7. Each source and each public header of a module is named in the module's CMakeLists.txt.
-  8. The layer diagram of README.md is the table below.
+  8. The layer diagram of README.md is the table below, as far as its modules exist.
 """
 
 import re
@@ -138,10 +138,17 @@ def readme_layers(text):
     return [sorted(re.split(r"\s{4,}", row)[0].split()) for row in rows]
 
 
+def existing_layers(root):
+    def exists(module):
+        return any((root / folder / module).is_dir() for folder in ("", "src", "include/thalweg"))
+
+    return [sorted(filter(exists, modules)) for modules in LAYERS if any(map(exists, modules))]
+
+
 def readme_violations(root):
     readme = root / "README.md"
-    if readme.is_file() and readme_layers(readme.read_text(encoding="utf-8")) != [sorted(row) for row in LAYERS]:
-        yield "README.md: the layer diagram is not the table in tests/layering/layering.py"
+    if readme.is_file() and readme_layers(readme.read_text(encoding="utf-8")) != existing_layers(root):
+        yield f"README.md: the layer diagram does not show what there is, {existing_layers(root)}"
 
 
 def sources(root):

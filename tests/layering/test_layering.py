@@ -45,15 +45,13 @@ BROKEN = [
     ("tests/CMakeLists.txt", "file(GLOB sources *.cpp)", "hides new files"),
     ("src/io/vector.cpp", None, "not named in src/io/CMakeLists.txt"),
     ("include/thalweg/base/id.hpp", None, "not named in src/base/CMakeLists.txt"),
-    ("README.md", "1  geometry   exact\n0  base   errors\n", "layer diagram"),
+    ("README.md", "1  geometry    exact\n0  base    errors\n", "layer diagram"),
 ]
 
+# The diagram of the sound tree.
 DIAGRAM = """
-7  tools/thalweg   tools/qgis   src/capi        faces
-6  pipeline                                     one run
-5  optimize   |   terrain                       criteria | pits
-4  order                                        orders
-3  delaunay   |   io                            noding | readers
+5  optimize                                     criteria
+3  io                                           readers
 2  mesh       |   geodesy                       the Tin | CRS
 1  geometry                                     points
 0  base                                         errors
