@@ -4,7 +4,7 @@
   1. A module includes only modules of lower layers; modules of one layer do not see each other.
   2. A foreign library is included only behind its fence (CGAL, GDAL, GeographicLib, Cairo).
   3. Headers under include/ are plain: the C++ standard library and other public headers.
-  4. The library does not print: no <iostream>, <cstdio>, <print> under src/ and include/.
+  4. The library, under src/ and include/, neither prints nor ends the process.
   5. A header has fewer than 150 lines, a source fewer than 500.
   6. No file or folder is called misc, utils, common, helpers or manager; no CMake file globs.
   7. Each source and each public header of a module is named in the module's CMakeLists.txt.
@@ -35,7 +35,9 @@ FENCES = {
     "Cairo": (re.compile(r"cairo"), {"io"}),
 }
 STANDARD_HEADER = re.compile(r"[a-z_0-9]+")
-PRINTING_HEADERS = {"iostream", "cstdio", "stdio.h", "print", "syncstream"}
+PRINTS_OR_ENDS = re.compile(
+    r"#\s*include\s*<(iostream|print)>"
+    r"|\b([fv]?printf|f?puts|putchar|perror|exit|_Exit|quick_exit|abort)\s*\(")
 VAGUE_NAMES = {"misc", "util", "utils", "common", "helper", "helpers", "manager"}
 MAX_LINES = {".hpp": 150, ".h": 150, ".cpp": 500}
 
@@ -97,8 +99,6 @@ def include_violations(root, path, quote, target):
                 yield f"{library} belongs to {' and '.join(sorted(allowed))}"
     if path.parts[0] == "include" and not STANDARD_HEADER.fullmatch(target):
         yield "a public header includes only the standard library and thalweg/"
-    if path.parts[0] in ("include", "src") and target in PRINTING_HEADERS:
-        yield "the library does not print"
 
 
 def file_violations(root, path):
@@ -114,6 +114,8 @@ def file_violations(root, path):
     if len(lines) >= limit:
         yield f"{path}: {len(lines)} lines, fewer than {limit} are allowed"
     for number, line in enumerate(lines, start=1):
+        if path.parts[0] in ("include", "src") and PRINTS_OR_ENDS.search(line.split("//")[0]):
+            yield f"{path}:{number}: the library neither prints nor ends the process"
         match = INCLUDE.match(line)
         if match:
             for text in include_violations(root, path, *match.groups()):
