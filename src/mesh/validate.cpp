@@ -36,45 +36,63 @@ std::string name(VertexId a, VertexId b) {
   return name(a) + ", " + name(b);
 }
 
-// Halfedges by origin; among those of one vertex sorted by target, then id.
+// Halfedges by origin; among those of one vertex sorted by target.
 class Fans {
  public:
+  // Target in the upper half, halfedge in the lower one: sorted as a number, found without a look at
+  // triangles.
+  using Spoke = std::uint64_t;
+
   Fans() = default;
   // Pre: ids of triangles exist.
   Fans(std::span<const Triangle> triangles, std::size_t vertex_count)
-      : triangles_(triangles), start_(vertex_count + 1, 0), halfedges_(3 * triangles.size()) {
+      : triangles_(triangles), start_(vertex_count + 1, 0), spokes_(3 * triangles.size()) {
     for (const Triangle& t : triangles) {
       for (const VertexId v : t) ++start_[v.index() + 1];
     }
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     std::vector<std::uint32_t> fill(start_.begin(), start_.end() - 1);
-    for (std::size_t h = 0; h < halfedges_.size(); ++h) {
-      halfedges_[fill[origin(HalfedgeId{h}).index()]++] = HalfedgeId{h};
+    std::size_t h = 0;
+    for (const Triangle& t : triangles) {
+      for (std::size_t i = 0; i < 3; ++i) spokes_[fill[t[i].index()]++] = spoke(t[i == 2 ? 0 : i + 1], h++);
     }
     for_each_block(vertex_count, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
-        std::sort(
-            halfedges_.begin() + start_[v], halfedges_.begin() + start_[v + 1],
-            [&](HalfedgeId a, HalfedgeId b) { return std::pair(target(a), a) < std::pair(target(b), b); });
+        std::sort(spokes_.begin() + start_[v], spokes_.begin() + start_[v + 1]);
       }
     });
   }
+  static VertexId target(Spoke s) { return VertexId{s >> 32}; }
+  static HalfedgeId halfedge(Spoke s) { return HalfedgeId{s & 0xffffffffU}; }
   [[nodiscard]] VertexId origin(HalfedgeId h) const { return triangles_[h.index() / 3][h.index() % 3]; }
   [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
-  [[nodiscard]] std::span<const HalfedgeId> of(VertexId v) const {
-    return std::span(halfedges_).subspan(start_[v.index()], start_[v.index() + 1] - start_[v.index()]);
+  [[nodiscard]] std::span<const Spoke> of(VertexId v) const {
+    return std::span(spokes_).subspan(start_[v.index()], start_[v.index() + 1] - start_[v.index()]);
   }
+  // The first halfedge between the two, in this direction.
   [[nodiscard]] HalfedgeId find(VertexId from, VertexId to) const {
-    const std::span<const HalfedgeId> fan = of(from);
+    constexpr std::size_t kFew = 32;  // up to here reading on beats bisection
+    const std::span<const Spoke> fan = of(from);
+    const Spoke least = spoke(to, 0);
+    const auto at = fan.size() <= kFew
+                        ? std::find_if(fan.begin(), fan.end(), [&](Spoke s) { return s >= least; })
+                        : std::lower_bound(fan.begin(), fan.end(), least);
+    return at != fan.end() && target(*at) == to ? halfedge(*at) : HalfedgeId{};
+  }
+  // The second of two halfedges from v to the same vertex, if there are any.
+  [[nodiscard]] HalfedgeId find_repeated(VertexId v) const {
+    const std::span<const Spoke> fan = of(v);
     const auto at =
-        std::lower_bound(fan.begin(), fan.end(), to, [&](HalfedgeId h, VertexId v) { return target(h) < v; });
-    return at != fan.end() && target(*at) == to ? *at : HalfedgeId{};
+        std::adjacent_find(fan.begin(), fan.end(), [](Spoke s, Spoke t) { return target(s) == target(t); });
+    return at != fan.end() ? halfedge(*std::next(at)) : HalfedgeId{};
   }
 
  private:
+  static Spoke spoke(VertexId to, std::size_t h) { return Spoke{to.value()} << 32 | h; }
+
   std::span<const Triangle> triangles_;
   std::vector<std::uint32_t> start_;
-  std::vector<HalfedgeId> halfedges_;
+  std::vector<Spoke> spokes_;
 };
 
 class Inspection {
@@ -220,36 +238,46 @@ class Inspection {
   }
 
   void check_edges() {
-    const std::size_t halfedges = 3 * tin_.triangles.size();
-    const auto repeats_an_edge = [&](std::size_t i) {
-      const HalfedgeId h{i};
-      return fans_.find(fans_.origin(h), fans_.target(h)) != h;
-    };
-    const bool once_a_side =
-        report(violation::kSameSide, find_broken(halfedges, repeats_an_edge), [&](std::size_t h) {
-          return "triangle " + std::to_string(h / 3) + " lies on the same side of " + edge_name(h) +
-                 " as another one";
-        });
-    plane_is_sound_ = plane_is_sound_ && once_a_side;
-    opposite_.resize(halfedges);
-    for_each_block(halfedges, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t h = begin; h < end; ++h) {
-        opposite_[h] = fans_.find(fans_.target(HalfedgeId{h}), fans_.origin(HalfedgeId{h}));
-      }
+    const std::size_t n = tin_.points.size();
+    const auto repeats = [&](std::size_t v) { return fans_.find_repeated(VertexId{v}).valid(); };
+    const bool once_a_side = report(violation::kSameSide, find_broken(n, repeats), [&](std::size_t v) {
+      const std::size_t h = fans_.find_repeated(VertexId{v}).index();
+      return "triangle " + std::to_string(h / 3) + " lies on the same side of " + edge_name(h) +
+             " as another one";
     });
-    if (once_a_side && tin_.twins.size() == halfedges) {
+    plane_is_sound_ = plane_is_sound_ && once_a_side;
+    if (!once_a_side) return;
+    find_opposites();
+    if (tin_.twins.size() == opposite_.size()) {
       const auto wrong = [&](std::size_t h) { return tin_.twins[h] != opposite_[h]; };
-      report(violation::kTwinWrong, find_broken(halfedges, wrong), [&](std::size_t h) {
+      report(violation::kTwinWrong, find_broken(opposite_.size(), wrong), [&](std::size_t h) {
         return "halfedge " + std::to_string(h) + " (" + edge_name(h) + ") has a wrong twin";
       });
     }
-    if (tin_.kinds.size() == halfedges) {
+    if (tin_.kinds.size() == opposite_.size()) {
       const auto differ = [&](std::size_t h) {
         return opposite_[h].index() < h && tin_.kinds[h] != tin_.kinds[opposite_[h].index()];
       };
-      report(violation::kKindsDiffer, find_broken(halfedges, differ),
+      report(violation::kKindsDiffer, find_broken(opposite_.size(), differ),
              [&](std::size_t h) { return "the two sides of " + edge_name(h) + " differ in kind"; });
     }
+  }
+
+  // Each pair is found once, from its smaller vertex; so no two threads write the same place.
+  void find_opposites() {
+    opposite_.assign(3 * tin_.triangles.size(), HalfedgeId{});
+    for_each_block(tin_.points.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        for (const Fans::Spoke s : fans_.of(VertexId{v})) {
+          const VertexId to = Fans::target(s);
+          if (to < VertexId{v}) continue;
+          const HalfedgeId other = fans_.find(to, VertexId{v});
+          if (!other.valid()) continue;
+          opposite_[Fans::halfedge(s).index()] = other;
+          opposite_[other.index()] = Fans::halfedge(s);
+        }
+      }
+    });
   }
 
   void check_fans() {

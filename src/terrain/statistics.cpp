@@ -76,6 +76,14 @@ double dot(const Vector3& a, const Vector3& b) {
   return a.x * b.x + a.y * b.y;
 }
 
+// How many of the first tangents are reached.
+template <std::size_t Count>
+std::size_t count_steps(double tangent) {
+  std::size_t steps = 0;
+  for (std::size_t i = 0; i < Count; ++i) steps += tangent >= kTangent[i] ? 1 : 0;
+  return steps;
+}
+
 // Clockwise from north, 0 to 7; 8 where the surface is level. (x, y) points downhill.
 std::size_t sector(double x, double y) {
   if (x == 0 && y == 0) return 8;
@@ -115,18 +123,14 @@ void add_triangle(const Tin& tin, const Triangle& t, const MetricScale& scale, F
   }
   const Vector3 up = {side[2].y * side[0].z - side[2].z * side[0].y,
                       side[2].z * side[0].x - side[2].x * side[0].z, cross(side[2], side[0])};
-  const double horizontal = std::hypot(up.x, up.y);
+  const double horizontal = std::sqrt(up.x * up.x + up.y * up.y);
   figures.area.add(up.z / 2);
-  figures.surface_area.add(std::hypot(horizontal, up.z) / 2);
+  figures.surface_area.add(std::sqrt(up.x * up.x + up.y * up.y + up.z * up.z) / 2);
   figures.flat += corner[0].z == corner[1].z && corner[1].z == corner[2].z ? 1 : 0;
   const double tangent = smallest_tangent(side, up.z);
   figures.smallest_tangent = std::min(figures.smallest_tangent, tangent);
-  const auto steps_below = [](double t0, std::size_t steps) {
-    return static_cast<std::size_t>(std::upper_bound(kTangent.begin(), kTangent.begin() + steps, t0) -
-                                    kTangent.begin());
-  };
-  ++figures.angles[steps_below(tangent, 5)];
-  ++figures.slopes[steps_below(horizontal / up.z, 8)];
+  ++figures.angles[count_steps<5>(tangent)];
+  ++figures.slopes[count_steps<8>(horizontal / up.z)];
   ++figures.aspects[sector(up.x, up.y)];
 }
 
