@@ -1,6 +1,7 @@
-// Uses the installed headers and library: builds a TIN of two triangles, and one that breaks a law.
+// Uses the installed headers and library: builds a TIN of two triangles, checks it, and tries one that breaks a law.
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
+#include <thalweg/mesh/validate.hpp>
 
 #include <array>
 #include <cstdio>
@@ -19,5 +20,5 @@ int main() {
   } catch (const thalweg::Error& error) {
     if (error.code() != thalweg::ErrorCode::InvalidTin) return 1;
   }
-  return tin.edge_count() == 5 ? 0 : 1;
+  return tin.edge_count() == 5 && thalweg::validate(tin).empty() ? 0 : 1;
 }
