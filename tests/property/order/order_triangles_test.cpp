@@ -3,7 +3,7 @@
 #include <thalweg/order/order_triangles.hpp>
 
 #include <gtest/gtest.h>
-#include <support/oracle/random_scenes.hpp>
+#include <support/oracle/law_testing.hpp>
 #include <support/oracle/triangulations.hpp>
 #include <support/random.hpp>
 #include <support/scene_tin.hpp>
@@ -29,7 +29,7 @@ using MakeScene = Scene (*)(Dice&, const SceneOptions&);
 void compare(MakeScene make, const SceneOptions& options, int scenes) {
   Dice dice(testing::UnitTest::GetInstance()->current_test_info()->name());
   Progress progress;
-  for (int i = 0; i < scenes && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < scenes * THALWEG_SCENE_FACTOR && !testing::Test::HasFailure(); ++i) {
     const Scene scene = make(dice, options);
     SCOPED_TRACE(oracle::to_text(scene));
     const Oracle truth(scene);
@@ -58,6 +58,9 @@ TEST(OrderTriangles, AreCompleteInGeneralPosition) {
 }
 TEST(OrderTriangles, AreCompleteOnLattices) {
   compare(oracle::random_lattice_scene, {.most = 16, .range = 5, .constraints = 8}, 60);
+}
+TEST(OrderTriangles, AreCompleteOnCirclesAndTheirTangents) {
+  compare(oracle::random_circle_scene, {.most = 16, .constraints = 8}, 40);
 }
 TEST(OrderTriangles, AreCompleteOnLargerScenes) {
   compare(oracle::random_scene, {.fewest = 26, .most = 30, .range = 300, .constraints = 14}, 10);

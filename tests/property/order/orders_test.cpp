@@ -121,6 +121,9 @@ TEST(Orders, AgreeInGeneralPosition) {
 TEST(Orders, AgreeOnLattices) {
   compare(oracle::random_lattice_scene, {.most = 16, .range = 5, .constraints = 8}, 120);
 }
+TEST(Orders, AgreeOnCirclesAndTheirTangents) {
+  compare(oracle::random_circle_scene, {.most = 16, .constraints = 8}, 100);
+}
 TEST(Orders, AgreeInPolygons) {
   compare(oracle::random_polygon, {.most = 14}, 100);
 }

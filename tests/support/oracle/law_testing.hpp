@@ -16,10 +16,10 @@
 namespace thalweg::oracle {
 
 /// What a stream holds.
-enum class Stream { General, Lattice, Polygon, Ground };
-inline constexpr std::array<Stream, 4> kStreams{Stream::General, Stream::Lattice, Stream::Polygon,
-                                                Stream::Ground};
-inline constexpr std::array<Stream, 2> kPlaneStreams{Stream::General, Stream::Lattice};
+enum class Stream { General, Lattice, Circle, Polygon, Ground };
+inline constexpr std::array<Stream, 5> kStreams{Stream::General, Stream::Lattice, Stream::Circle,
+                                                Stream::Polygon, Stream::Ground};
+inline constexpr std::array<Stream, 3> kPlaneStreams{Stream::General, Stream::Lattice, Stream::Circle};
 
 inline Scene draw_scene(Dice& dice, Stream stream, const SceneOptions& options) {
   switch (stream) {
@@ -27,6 +27,8 @@ inline Scene draw_scene(Dice& dice, Stream stream, const SceneOptions& options) 
       return random_scene(dice, options);
     case Stream::Lattice:
       return random_lattice_scene(dice, options);
+    case Stream::Circle:
+      return random_circle_scene(dice, options);
     case Stream::Polygon:
       return random_polygon(dice, options);
     case Stream::Ground:

@@ -157,6 +157,42 @@ Scene random_lattice_scene(Dice& dice, const SceneOptions& options) {
   return scene;
 }
 
+Scene random_circle_scene(Dice& dice, const SceneOptions& options) {
+  constexpr int kRadius = 65;  // 36 lattice points on the circle
+  std::vector<Site> rim;
+  for (int x = -kRadius; x <= kRadius; ++x) {
+    for (int y = -kRadius; y <= kRadius; ++y) {
+      if (x * x + y * y == kRadius * kRadius) rim.push_back({x, y});
+    }
+  }
+  Scene scene;
+  const auto add = [&scene](Site site) {
+    if (std::find(scene.sites.begin(), scene.sites.end(), site) == scene.sites.end())
+      scene.sites.push_back(site);
+  };
+  const int count = std::max(4, dice.between(options.fewest, options.most));
+  for (int i = 0; i < 3 * count && scene.size() < count; ++i) {
+    const Site on = rim[static_cast<std::size_t>(dice.between(0, static_cast<int>(rim.size()) - 1))];
+    const int kind = dice.between(0, 3);
+    if (kind == 0 && scene.size() + 2 <= count) {
+      add({on.x - on.y, on.y + on.x});  // the two ends of an edge that touches the circle in its middle
+      add({on.x + on.y, on.y - on.x});
+    } else if (kind == 1) {
+      add({dice.between(-kRadius, kRadius), dice.between(-kRadius, kRadius)});
+    } else {
+      add(on);
+    }
+  }
+  if (all_collinear(scene.sites)) return random_circle_scene(dice, options);
+  for (int v = 0; options.constraints > 0 && v + 1 < scene.size(); ++v) {
+    const Site a = scene.at(v), b = scene.at(v + 1);
+    if (a.x * b.y - a.y * b.x == -2 * kRadius * kRadius && dice.between(0, 1) == 0)
+      add_constraint(scene, {v, v + 1});
+  }
+  add_constraints(dice, scene, options.constraints);
+  return scene;
+}
+
 Scene random_polygon(Dice& dice, const SceneOptions& options) {
   for (;;) {
     Scene scene;

@@ -38,6 +38,9 @@ struct SceneOptions {
 Scene random_scene(Dice& dice, const SceneOptions& options);
 /// Sites on a small lattice, many collinear and cocircular; constraint edges between them. Plane mode.
 Scene random_lattice_scene(Dice& dice, const SceneOptions& options);
+/// Many sites on one circle, some inside it, and some on its tangents; constraint edges that touch the
+/// circle, end on it and cross it. Plane mode. options.range is not used.
+Scene random_circle_scene(Dice& dice, const SceneOptions& options);
 /// A simple polygon through all sites, in general position. Polygon mode. options.constraints is not used.
 Scene random_polygon(Dice& dice, const SceneOptions& options);
 /// A polygon with further sites and constraint edges inside, and now and then a hole. Polygon mode.
