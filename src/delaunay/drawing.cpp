@@ -38,6 +38,7 @@ MergedVertices restrict_to(const Survey& survey, const MergedVertices& merged,
     kept.origins.push_back(merged.origins[v]);
   }
   kept.point_count = merged.point_count;
+  kept.pixel = merged.pixel;
   kept.of_point = merged.of_point;
   kept.first_of_line = merged.first_of_line;
   kept.of_line_vertex.reserve(merged.of_line_vertex.size());
@@ -111,7 +112,7 @@ Drawing draw(const Survey& survey, const MergedVertices& merged, std::span<const
     for (std::uint32_t i = 0; i + 1 < survey.lines[l].xy.size(); ++i) drawing.pieces.push_back({l, i});
   }
   const std::vector<SegmentEnds> segments = segments_of(drawing.vertices, drawing.pieces);
-  drawing.noding = node_segments(drawing.vertices.xy, segments, progress);
+  drawing.noding = node_segments(drawing.vertices.xy, segments, progress, merged.pixel);
   if (drawing.noding.failure) refuse(survey, drawing.pieces, *drawing.noding.failure);
   drawing.passages = find_passages(survey, drawing, lines);
   append_crossings(drawing);

@@ -181,7 +181,7 @@ Tin keep_region(const Survey& survey, const Drawing& drawing, const Tin& hull, P
 }  // namespace
 
 Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress) {
-  MergedVertices merged = merge_vertices(survey, options.snap, progress);
+  MergedVertices merged = merge_vertices(survey, options, progress);
   check_rings(survey, merged);
   const auto every = lines_to_draw(survey, [](const SurveyLine&) { return true; });
   Drawing drawing = draw(survey, merged, every, progress);

@@ -59,14 +59,6 @@ constexpr int kPixelBits = 44;  // a pixel is 2^-44 of the power of two above th
 constexpr std::size_t kBlock = 1 << 11;
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
-double pixel_for(std::span<const Point2> vertices) {
-  double largest = 0;
-  for (const Point2 p : vertices) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return largest > 0 ? std::ldexp(1.0, exponent - kPixelBits) : std::ldexp(1.0, -kPixelBits);
-}
-
 // A link whose way leads through the cell of a vertex.
 struct Stop {
   std::uint32_t link = 0;
@@ -89,10 +81,11 @@ std::vector<Found> gather(std::vector<std::vector<Found>>& parts) {
 
 class Noder {
  public:
-  Noder(std::span<const Point2> vertices, std::span<const SegmentEnds> segments, Progress& progress)
+  Noder(std::span<const Point2> vertices, std::span<const SegmentEnds> segments, Progress& progress,
+        double least_pixel)
       : xy_(vertices.begin(), vertices.end()),
         given_(vertices.size()),
-        pixel_(pixel_for(vertices)),
+        pixel_(snapping_pixel(vertices, least_pixel)),
         progress_(progress) {
     first_node_.reserve(segments.size() + 1);
     for (const SegmentEnds& ends : segments) {
@@ -371,9 +364,18 @@ class Noder {
 
 }  // namespace
 
+double snapping_pixel(std::span<const Point2> positions, double least) {
+  double largest = 0;
+  for (const Point2 p : positions) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const double pixel = largest > 0 ? std::ldexp(1.0, exponent - kPixelBits) : std::ldexp(1.0, -kPixelBits);
+  return std::max(pixel, least);
+}
+
 Noding node_segments(std::span<const Point2> vertices, std::span<const SegmentEnds> segments,
-                     Progress& progress) {
-  return Noder(vertices, segments, progress).run();
+                     Progress& progress, double least_pixel) {
+  return Noder(vertices, segments, progress, least_pixel).run();
 }
 
 }  // namespace thalweg

@@ -41,9 +41,14 @@ struct Noding {
   }
 };
 
-/// Nodes segments among themselves and with all vertices. Pre: vertices are distinct and within 1e15.
+/// Side of the snapping grid: a fixed part of the power of two above the largest coordinate, but not below
+/// `least`. Pre: `least` is 0 or a power of two.
+double snapping_pixel(std::span<const Point2> positions, double least);
+
+/// Nodes segments among themselves and with all vertices. Pre: vertices are distinct and within 1e15;
+/// `least_pixel` as in `snapping_pixel`.
 /// Complexity: about (vertices + segments) log segments, and the number of pieces.
 Noding node_segments(std::span<const Point2> vertices, std::span<const SegmentEnds> segments,
-                     Progress& progress);
+                     Progress& progress, double least_pixel = 0);
 
 }  // namespace thalweg

@@ -29,7 +29,9 @@ LayerReader::LayerReader(const SourceSpec& spec, GDALDatasetUniquePtr dataset, L
     : SourceReader(spec), dataset_(std::move(dataset)), layer_(&choose_layer(*dataset_, spec, use)) {
   // A file's only layer needs no name in messages.
   if (dataset_->GetLayerCount() > 1) set_layer(layer_->GetName());
-  if (const OGRSpatialReference* reference = layer_->GetSpatialRef()) {
+  // GeoPackage has two names for "none".
+  if (const OGRSpatialReference* reference = layer_->GetSpatialRef();
+      reference != nullptr && std::string_view(reference->GetName()).rfind("Undefined", 0) != 0) {
     axes_are_swapped_ = has_swapped_axes(*reference);
     OGRSpatialReference traditional(*reference);
     traditional.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

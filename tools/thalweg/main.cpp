@@ -1,1 +1,169 @@
-int main() { return 0; }
+// The command line: parses, runs one subcommand, maps errors to one line and an exit status.
+#include "command.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/pipeline/report.hpp>
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace thalweg::cli {
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+constexpr int kInterrupted = 130;
+
+std::unique_ptr<Progress> running;
+
+extern "C" void stop_on_signal(int) {
+  if (running) running->cancel();
+}
+
+/// Draws each phase as one line `read         0...10...20...100 - done.`
+class ProgressLine {
+ public:
+  void operator()(const std::string& phase, double fraction) {
+    if (phase != phase_) {
+      if (!phase_.empty() && tick_ <= kTicks) std::fputc('\n', stderr);
+      phase_ = phase;
+      tick_ = 0;
+      std::fputs(fmt::format("{:<12} ", phase).c_str(), stderr);
+    }
+    while (tick_ <= kTicks && fraction * kTicks >= tick_) {
+      std::fputs(tick_ % 4 == 0 ? std::to_string(tick_ * 100 / kTicks).c_str() : ".", stderr);
+      if (tick_ == kTicks) std::fputs(" - done.\n", stderr);
+      ++tick_;
+    }
+    std::fflush(stderr);
+  }
+
+ private:
+  static constexpr int kTicks = 40;
+  std::string phase_;
+  int tick_ = 0;
+};
+
+/// GDAL's habit of long options with one dash, and its names for CRS options.
+std::vector<std::string> normalise(int argc, char** argv) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kNames{{
+      {"-s_srs", "--s-crs"},
+      {"-t_srs", "--t-crs"},
+      {"-a_srs", "--a-crs"},
+      {"--s_srs", "--s-crs"},
+      {"--t_srs", "--t-crs"},
+      {"--a_srs", "--a-crs"},
+      {"-of", "--of"},
+      {"-co", "--co"},
+  }};
+  std::vector<std::string> arguments;
+  for (int i = argc - 1; i > 0; --i) {  // CLI11 takes them last first
+    std::string argument = argv[i];
+    for (const auto& [name, replacement] : kNames) {
+      if (argument == name) argument = replacement;
+    }
+    arguments.push_back(std::move(argument));
+  }
+  return arguments;
+}
+
+int fail(std::string_view code, std::string_view message, int status) {
+  std::string line(message);
+  for (char& c : line) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  std::fputs(fmt::format("ERROR {}: {}\n", code, line).c_str(), stderr);
+  return status;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "Thalweg builds terrain TINs: higher-order constrained Delaunay triangulations of elevation\n"
+      "points and ridge and valley lines, optimised with proof.",
+      "thalweg"};
+  app.set_version_flag("--version", "thalweg " + version());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done; 1 failed (data, input/output, memory); 2 usage; 130 interrupted.\n"
+      "Sources are PATH or 'PATH|layername=NAME'. `thalweg COMMAND --help` tells more.");
+  add_build_command(app);
+  add_optimize_command(app);
+  add_order_command(app);
+  add_info_command(app);
+  add_view_command(app);
+  add_formats_command(app);
+  try {
+    app.parse(normalise(argc, argv));
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return fail("usage", std::string(error.what()) + " (see --help)", kUsage);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, Common& common) {
+  command.add_flag("-q,--quiet", common.quiet, "no progress and no summary; only errors");
+  command.add_option("-f,--format", common.format, "what is printed: text or json")
+      ->transform(CLI::CheckedTransformer(
+          std::vector<std::pair<std::string, Format>>{{"text", Format::Text}, {"json", Format::Json}}))
+      ->default_str("text");
+  command.add_option("--threads", common.threads, "threads to use; the result does not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->default_str("all cores");
+}
+
+Progress& progress_of(const Common& common) {
+  static std::unique_ptr<tbb::global_control> limit;
+  if (common.threads > 0) {
+    limit =
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
+  }
+  const bool draw = common.quiet == 0 && isatty(STDERR_FILENO) != 0;
+  running = draw ? std::make_unique<Progress>(ProgressLine{}) : std::make_unique<Progress>();
+  std::signal(SIGINT, stop_on_signal);
+  std::signal(SIGTERM, stop_on_signal);
+  return *running;
+}
+
+void print(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw Error(ErrorCode::WriteFailed,
+                "standard output cannot be written; is its reader gone or its disk full?");
+  }
+}
+
+}  // namespace thalweg::cli
+
+int main(int argc, char** argv) {
+  using namespace thalweg;
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return cli::run(argc, argv);
+  } catch (const Error& error) {
+    const int status = error.code() == ErrorCode::Usage       ? cli::kUsage
+                       : error.code() == ErrorCode::Cancelled ? cli::kInterrupted
+                                                              : cli::kFailed;
+    return cli::fail(error_name(error.code()), error.what(), status);
+  } catch (const std::bad_alloc&) {
+    return cli::fail("out-of-memory", "the machine has not enough memory for this input; nothing was written",
+                     cli::kFailed);
+  } catch (const std::exception& error) {
+    return cli::fail("internal", error.what(), cli::kFailed);
+  }
+}

@@ -34,6 +34,9 @@ struct GroundOptions {
   /// nearest point's representative within reach; the others are merged with each other in the same way.
   double snap = 0;
   CrossingRule crossing = CrossingRule::Auto;
+  /// Least side of the snapping grid, 0 or a power of two, plane units: what the coordinates can tell, where
+  /// that is more than the spacing of doubles in the plane (they were given in another frame).
+  double resolution = 0;
 };
 
 /// Where a vertex of the ground comes from: what has its very position, first in the order of ids.

@@ -1,0 +1,64 @@
+#pragma once
+
+/// One run of the main job: sources in, optimised TIN, report and picture out.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/delaunay/ground.hpp>
+#include <thalweg/io/source.hpp>
+#include <thalweg/optimize/optimize.hpp>
+#include <thalweg/order/definition.hpp>
+#include <thalweg/pipeline/report.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+/// Where results go. Every file is written aside and renamed when all of them are whole.
+struct OutputConfig {
+  std::string path;                           ///< the TIN
+  std::string format;                         ///< empty: by the path's extension
+  std::vector<std::string> creation_options;  ///< K=V
+  bool overwrite = false;
+  std::string report_path;   ///< JSON report; empty: none ("-" is the caller's business)
+  std::string picture_path;  ///< .png, .svg, .pdf; empty: none
+  std::string problem_path;  ///< labelling problem, .cfn or .wcsp; empty: none
+};
+
+/// How the triangulation is chosen.
+struct LabellingConfig {
+  unsigned order = 1;  ///< 0 or 1
+  OrderDefinition definition = OrderDefinition::SeesOpp;
+  std::vector<Criterion> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
+  std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own
+};
+
+struct BuildConfig {
+  std::vector<SourceSpec> points;
+  std::vector<LineSource> lines;
+  ReadOptions read;
+  GroundOptions ground;              ///< its `snap` is set from snap_m
+  double snap_m = 0;                 ///< metres in the metric plane
+  std::optional<double> max_edge_m;  ///< metres in the metric plane
+  LabellingConfig labelling;
+  OutputConfig output;
+};
+
+/// Runs the main job and writes its outputs. Results do not depend on the number of threads.
+/// Throws: Error with the code that fits; then no output is left behind.
+Report build(const BuildConfig& config, Progress& progress);
+
+struct OptimizeConfig {
+  std::string input;
+  LabellingConfig labelling;
+  OutputConfig output;
+};
+
+/// The same optimisation on the vertices, constraint edges and outline of a TIN file.
+/// An edge of the outline that is no edge of the constrained Delaunay triangulation becomes a constraint
+/// edge.
+Report optimize_tin(const OptimizeConfig& config, Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,42 @@
+#pragma once
+
+/// What a TIN file is, and a picture of it.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/geometry/point.hpp>
+#include <thalweg/mesh/validate.hpp>
+#include <thalweg/pipeline/report.hpp>
+#include <thalweg/terrain/statistics.hpp>
+
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+struct TinInfo {
+  std::string path;
+  std::string crs_name;  ///< empty: unknown
+  Box2 extent;           ///< of the written coordinates
+  ReportTin tin;
+  ReportPits pits;
+  TinStatistics statistics;
+  std::string digest;
+  std::vector<Violation> violations;  ///< empty: valid
+};
+
+/// Reads and measures a TIN file. Throws: Error{NotFound, BadFormat, InvalidTin, ...}.
+TinInfo inspect_tin(const std::string& path, Progress& progress);
+std::string to_json(const TinInfo& info);
+std::string to_text(const TinInfo& info);
+
+struct ViewConfig {
+  std::string input;
+  std::string output;  ///< .png, .svg, .pdf
+  bool overwrite = false;
+  int width_px = 1600;
+};
+
+/// Draws a TIN file. Throws: as inspect_tin, and Error{OutputExists, WriteFailed, Usage}.
+void view_tin(const ViewConfig& config, Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,115 @@
+#pragma once
+
+/// What a run tells about itself: the JSON report with fixed keys, and the same as a table for people.
+
+#include <thalweg/mesh/survey.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+/// Seconds of the phases of a run.
+struct PhaseSeconds {
+  double read = 0;
+  double triangulate = 0;
+  double orders = 0;
+  double optimize = 0;
+  double write = 0;
+  double total = 0;
+};
+
+struct ReportInput {
+  std::size_t points_read = 0;
+  std::size_t points_used = 0;
+  std::size_t duplicates_merged = 0;
+  std::size_t outside_boundary = 0;
+  std::size_t nodata_skipped = 0;
+  std::size_t nodata_holes_bridged = 0;
+  std::size_t breaklines_read = 0;
+  std::size_t breakline_vertices = 0;
+  std::size_t crossings = 0;
+  std::size_t vertices_inserted_on_lines = 0;  ///< points exactly on a line, and densified pieces
+  double snapping_pixel = 0;  ///< side of the snapping grid, units of the plane; 0 without lines
+};
+
+struct ReportCrs {
+  std::string wkt;                ///< empty: unknown, planar metres are assumed
+  std::string metric_projection;  ///< PROJ string of the plane of triangulation; empty: the CRS's own plane
+  double horizontal_metres_per_unit = 1;
+  double vertical_metres_per_unit = 1;
+};
+
+struct ReportTin {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t edges = 0;
+  std::size_t constraint_edges = 0;
+  std::size_t hull_vertices = 0;
+  std::size_t dropped_rim_triangles = 0;
+  std::size_t vertices_left_out = 0;  ///< vertices that lost all triangles
+  double area_m2 = 0;
+  std::optional<double> area_geodesic_m2;  ///< geographic input only
+  double min_angle_deg = 0;
+  /// Triangles by their smallest angle, six bins of 10 degrees.
+  std::array<std::size_t, 6> angle_histogram{};
+  std::array<std::size_t, 6> angle_histogram_delaunay{};
+  std::size_t flat_triangles = 0;
+  unsigned max_order = 0;
+};
+
+struct ReportFirstOrder {
+  std::string definition;
+  std::size_t quadrilaterals = 0;
+  std::size_t flipped = 0;
+  std::size_t fixed_by_elimination = 0;
+  std::size_t pieces = 0;
+  std::size_t largest_piece = 0;
+  std::size_t width = 0;
+};
+
+struct ReportCriterion {
+  std::string name;
+  std::string unit;
+  std::string direction;  ///< "min" or "max"
+  double delaunay = 0;
+  double result = 0;
+  double bound = 0;
+  bool optimal = false;
+  std::string method;
+};
+
+struct ReportPits {
+  std::size_t interior = 0;
+  std::size_t boundary = 0;
+  std::size_t lake = 0;
+};
+
+struct Report {
+  std::string command;
+  std::string digest;  ///< see `digest_of`
+  ReportInput input;
+  std::vector<Conflict> conflicts;
+  ReportCrs crs;
+  ReportTin tin;
+  ReportFirstOrder first_order;
+  std::vector<ReportCriterion> criteria;
+  ReportPits pits_delaunay;
+  ReportPits pits_result;
+  PhaseSeconds timings_s;
+  std::size_t peak_memory_bytes = 0;
+  std::vector<std::string> notes;  ///< what was assumed or is worth knowing, one sentence each
+};
+
+/// The report as JSON, keys as documented, indented, ending in a newline.
+std::string to_json(const Report& report);
+/// The report as aligned tables for people.
+std::string to_text(const Report& report);
+
+/// Version of the library, "0.1.0".
+std::string version();
+
+}  // namespace thalweg

@@ -1,0 +1,187 @@
+// The main job.
+//
+// 1. Reserve the outputs, read the sources in one CRS.
+// 2. A geographic survey: points exactly on a line become its vertices, pieces that bend are densified, and
+//    everything is projected to the metric plane. What is written back are the coordinates that came in.
+// 3. Node and triangulate: the ground.
+// 4. Take from the surface what is outside of the data (nodata), rim triangles with long edges, and rim
+//    triangles that are flat or turned over as written. Vertices that lose all triangles are out; the ground
+//    is then that of the vertices that stay. (Every triangle that stays is constrained Delaunay among fewer
+//    vertices too, so it is a triangle of the new ground.)
+// 5. Optimise and write (surface.cpp).
+#include "pipeline/plane_survey.hpp"
+#include "pipeline/surface.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/delaunay/trim.hpp>
+#include <thalweg/pipeline/build.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+/// Doubles that are longitudes are up to 3e-9 m apart; two programs that compute the same one differ by a
+/// few.
+constexpr double kGeographicResolution_m = 0x1p-20;
+
+std::vector<std::uint8_t> sources_of(const Ground& ground) {
+  std::vector<std::uint8_t> sources(ground.origins.size());
+  std::transform(ground.origins.begin(), ground.origins.end(), sources.begin(),
+                 [](const VertexOrigin& origin) { return static_cast<std::uint8_t>(origin.kind); });
+  return sources;
+}
+
+/// The terrain of the vertices that are in a kept triangle; ids close up in order.
+Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
+  const Tin& ground = terrain.ground;
+  std::vector<bool> used(ground.vertex_count(), false);
+  for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
+    if (!terrain.keep[t]) continue;
+    for (const VertexId v : ground.triangle(TriangleId{t})) used[v.index()] = true;
+  }
+  if (std::find(used.begin(), used.end(), false) == used.end()) return terrain;
+
+  std::vector<VertexId> renamed(ground.vertex_count());
+  std::vector<Point2> points;
+  std::vector<double> heights;
+  Terrain result;
+  for (std::size_t v = 0; v < ground.vertex_count(); ++v) {
+    if (!used[v]) continue;
+    renamed[v] = VertexId{points.size()};
+    points.push_back(ground.points()[v]);
+    heights.push_back(ground.heights()[v]);
+    if (!terrain.written.empty()) result.written.push_back(terrain.written[v]);
+    if (!terrain.continuous.empty()) result.continuous.push_back(terrain.continuous[v]);
+    result.vertex_source.push_back(terrain.vertex_source[v]);
+  }
+  std::vector<Triangle> kept;
+  for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
+    if (!terrain.keep[t]) continue;
+    const Triangle& corner = ground.triangle(TriangleId{t});
+    kept.push_back({renamed[corner[0].index()], renamed[corner[1].index()], renamed[corner[2].index()]});
+  }
+  std::vector<ConstraintEdge> constraints;
+  for (const ConstraintEdge& edge : ground.constraint_edges()) {
+    const ConstraintEdge moved{renamed[edge.a.index()], renamed[edge.b.index()], edge.kind};
+    if (moved.a.valid() && moved.b.valid()) constraints.push_back(moved);
+  }
+  result.mode = terrain.mode;
+  if (terrain.mode == GroundMode::Polygon) {
+    result.ground = Tin(std::move(points), std::move(heights), std::move(kept), constraints);
+    result.keep.assign(result.ground.triangle_count(), true);
+    return result;
+  }
+  result.ground = triangulate(std::move(points), std::move(heights), constraints, progress);
+  result.keep.assign(result.ground.triangle_count(), false);
+  std::sort(kept.begin(), kept.end());
+  std::size_t found = 0;
+  for (std::size_t t = 0; t < result.ground.triangle_count() && found < kept.size(); ++t) {
+    if (result.ground.triangle(TriangleId{t}) != kept[found]) continue;
+    result.keep[t] = true;
+    ++found;
+  }
+  if (found < kept.size()) {
+    throw Error(ErrorCode::Internal,
+                "a triangle is lost when vertices outside of the surface are taken away");
+  }
+  return result;
+}
+
+/// Narrows a mask to the triangles that stay when the TIN of those kept so far loses some.
+void narrow(std::vector<bool>& keep, const std::vector<bool>& stays) {
+  std::size_t next = 0;
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    if (keep[t]) keep[t] = stays[next++];
+  }
+}
+
+/// Which triangles of the ground are surface.
+std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& nodata, const Plane& plane,
+                                    std::optional<double> max_edge_m, const Progress& progress) {
+  const Tin& ground = terrain.ground;
+  std::vector<bool> keep(ground.triangle_count(), true);
+  if (!nodata.empty()) {
+    keep = drop_outside_triangles(ground, [&](TriangleId t) {
+      if (t.index() % 4096 == 0) progress.check();
+      const Triangle& corner = ground.triangle(t);
+      const Point2 a = ground.point(corner[0]), b = ground.point(corner[1]), c = ground.point(corner[2]);
+      return nodata.outside(plane.to_written({(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}));
+    });
+  }
+  if (max_edge_m) {
+    narrow(keep,
+           drop_long_rim_triangles(keep_triangles(ground, keep), *max_edge_m / plane.metres_per_unit()));
+  }
+  if (plane.projected()) {
+    narrow(keep, drop_turned_rim_triangles(keep_triangles(ground, keep), terrain.continuous));
+  }
+  return keep;
+}
+
+void describe_input(const ReadResult& read, const Ground& ground, Report& report) {
+  report.input.points_read = read.points_read;
+  report.input.nodata_skipped = read.nodata_skipped;
+  report.input.nodata_holes_bridged = read.nodata_holes;
+  report.input.breaklines_read = read.breaklines_read;
+  report.input.breakline_vertices = read.breakline_vertices;
+  report.input.duplicates_merged = ground.duplicates_merged;
+  report.input.outside_boundary = ground.outside_boundary;
+  report.input.crossings = ground.crossings;
+  report.input.snapping_pixel = ground.pixel;
+  report.input.points_used = static_cast<std::size_t>(
+      std::count_if(ground.origins.begin(), ground.origins.end(),
+                    [](const VertexOrigin& origin) { return origin.kind == VertexOrigin::Kind::Point; }));
+}
+
+}  // namespace
+
+Report build(const BuildConfig& config, Progress& progress) {
+  Stopwatch watch;
+  Report report;
+  report.command = "build";
+  RunOutputs outputs(config.output);
+
+  progress.start_phase("read");
+  auto [read, plane, survey] = read_into_plane(config.points, config.lines, config.read, progress);
+  report.notes = read.notes;
+  report.input.vertices_inserted_on_lines = survey.vertices_inserted_on_lines;
+  note_assumptions(read.crs, report);
+  progress.advance(1);
+  report.timings_s.read = watch.lap();
+
+  progress.start_phase("triangulate");
+  GroundOptions ground_options = config.ground;
+  ground_options.snap = config.snap_m / plane.metres_per_unit();
+  if (plane.projected()) ground_options.resolution = kGeographicResolution_m;
+  Ground ground = build_ground(survey.survey, ground_options, progress);
+  describe_input(read, ground, report);
+  report.conflicts = std::move(ground.conflicts);
+  if (plane.projected()) {
+    for (Conflict& conflict : report.conflicts) conflict.xy = plane.to_written(conflict.xy);
+  }
+
+  Terrain terrain{.written = written_of(ground, survey, plane), .vertex_source = sources_of(ground)};
+  if (plane.projected()) terrain.continuous = plane.to_lonlat(terrain.written);
+  terrain.mode = ground.mode;
+  survey = {};
+  terrain.ground = std::move(ground.tin);
+  terrain.keep = surface_triangles(terrain, read.nodata, plane, config.max_edge_m, progress);
+  report.tin.dropped_rim_triangles =
+      static_cast<std::size_t>(std::count(terrain.keep.begin(), terrain.keep.end(), false));
+  const std::size_t vertices = terrain.ground.vertex_count();
+  terrain = without_lonely_vertices(std::move(terrain), progress);
+  report.tin.vertices_left_out = vertices - terrain.ground.vertex_count();
+
+  finish_run(terrain, {plane, read.crs, config.labelling, config.output, outputs, watch}, report, progress);
+  return report;
+}
+
+}  // namespace thalweg

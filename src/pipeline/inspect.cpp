@@ -1,0 +1,158 @@
+// What a TIN file is: read, projected where its CRS is geographic, measured, checked.
+#include "pipeline/digest.hpp"
+#include "pipeline/plane.hpp"
+#include "pipeline/surface.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/io/picture.hpp>
+#include <thalweg/io/read_tin.hpp>
+#include <thalweg/pipeline/inspect.hpp>
+#include <thalweg/terrain/pits.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+/// A TIN file in its plane.
+struct LoadedTin {
+  Tin tin;
+  CrsInfo crs;
+  Plane plane;
+  std::vector<Point2> written;  ///< empty: the plane's own
+};
+
+LoadedTin load(const std::string& path, Progress& progress) {
+  TinFile file = read_tin(path, progress);
+  CrsInfo crs = describe_crs(file.crs);
+  Plane plane(crs, file.points);
+  std::vector<Point2> points = plane.to_plane(file.points, progress);
+  Tin tin(std::move(points), std::move(file.heights), std::move(file.triangles), file.constraints);
+  LoadedTin loaded{std::move(tin), std::move(crs), std::move(plane), {}};
+  if (loaded.plane.projected()) loaded.written = std::move(file.points);
+  return loaded;
+}
+
+nlohmann::ordered_json histogram_json(std::span<const std::size_t> bins) {
+  return nlohmann::ordered_json(std::vector<std::size_t>(bins.begin(), bins.end()));
+}
+
+}  // namespace
+
+TinInfo inspect_tin(const std::string& path, Progress& progress) {
+  progress.start_phase("read");
+  const LoadedTin loaded = load(path, progress);
+  progress.start_phase("measure");
+  TinInfo info;
+  info.path = path;
+  info.crs_name = loaded.crs.known ? loaded.crs.name : "";
+  info.extent = bounding_box(loaded.written.empty() ? loaded.tin.points() : loaded.written);
+  info.tin = describe_tin(loaded.tin, loaded.plane, loaded.written);
+  info.statistics = measure(loaded.tin, loaded.plane.scale());
+  info.pits = describe_pits(find_pits(loaded.tin));
+  info.digest = digest_of(loaded.tin, loaded.written);
+  if (loaded.plane.projected()) {
+    info.violations = validate(loaded.tin, loaded.plane.to_lonlat(loaded.written));
+  } else {
+    info.violations = validate(loaded.tin);
+  }
+  progress.advance(1);
+  return info;
+}
+
+std::string to_json(const TinInfo& info) {
+  using Json = nlohmann::ordered_json;
+  Json violations = Json::array();
+  for (const Violation& v : info.violations) violations.push_back({{"code", v.code}, {"what", v.what}});
+  const Json json = {
+      {"path", info.path},
+      {"digest", info.digest},
+      {"crs", info.crs_name},
+      {"extent", {info.extent.x_min, info.extent.y_min, info.extent.x_max, info.extent.y_max}},
+      {"z_range", {info.statistics.z_min, info.statistics.z_max}},
+      {"vertices", info.tin.vertices},
+      {"triangles", info.tin.triangles},
+      {"edges", info.tin.edges},
+      {"constraint_edges", info.tin.constraint_edges},
+      {"hull_vertices", info.tin.hull_vertices},
+      {"area_m2", info.tin.area_m2},
+      {"area_geodesic_m2", info.tin.area_geodesic_m2 ? Json(*info.tin.area_geodesic_m2) : Json(nullptr)},
+      {"min_angle_deg", info.tin.min_angle_deg},
+      {"angle_histogram", info.tin.angle_histogram},
+      {"aspect_histogram", histogram_json(info.statistics.aspect_histogram)},
+      {"slope_histogram", histogram_json(info.statistics.slope_histogram)},
+      {"flat_triangles", info.tin.flat_triangles},
+      {"pits",
+       {{"interior", info.pits.interior}, {"boundary", info.pits.boundary}, {"lake", info.pits.lake}}},
+      {"valid", info.violations.empty()},
+      {"violations", violations}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const TinInfo& info) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  const auto row = [&](const std::string& name, const std::string& value) {
+    fmt::format_to(out, "{:<26}{}\n", name, value);
+  };
+  row("TIN", info.path);
+  row("CRS", info.crs_name.empty() ? "unknown" : info.crs_name);
+  row("extent",
+      fmt::format("{} {} {} {}", info.extent.x_min, info.extent.y_min, info.extent.x_max, info.extent.y_max));
+  row("heights", fmt::format("{} .. {}", info.statistics.z_min, info.statistics.z_max));
+  row("vertices", fmt::format("{}", info.tin.vertices));
+  row("triangles", fmt::format("{}", info.tin.triangles));
+  row("edges",
+      fmt::format("{}, of which {} are constraint edges", info.tin.edges, info.tin.constraint_edges));
+  row("area, m2", fmt::format("{:.1f}", info.tin.area_m2));
+  row("pits", fmt::format("{} inside, {} on the boundary", info.pits.interior, info.pits.boundary));
+  row("flat triangles", fmt::format("{}", info.tin.flat_triangles));
+  row("smallest angle, degrees", fmt::format("{:.3f}", info.tin.min_angle_deg));
+  const auto bins = [](std::span<const std::size_t> counts) {
+    std::string line;
+    for (const std::size_t count : counts) line += fmt::format("{:>9}", count);
+    return line;
+  };
+  fmt::format_to(out, "{:<26}{}\n", "smallest angle, 10 deg bins", bins(info.tin.angle_histogram));
+  fmt::format_to(out, "{:<26}{}\n", "slope, 10 degree bins", bins(info.statistics.slope_histogram));
+  fmt::format_to(out, "{:<26}{}\n", "aspect N..NW, level", bins(info.statistics.aspect_histogram));
+  row("digest", info.digest);
+  row("valid", info.violations.empty() ? "yes" : fmt::format("NO, {} violations", info.violations.size()));
+  constexpr std::size_t kShown = 20;
+  for (std::size_t i = 0; i < std::min(kShown, info.violations.size()); ++i) {
+    fmt::format_to(out, "  {} {}\n", info.violations[i].code, info.violations[i].what);
+  }
+  return text;
+}
+
+void view_tin(const ViewConfig& config, Progress& progress) {
+  PendingOutputs outputs;
+  const std::string path = outputs.add(config.output, config.overwrite ? Overwrite::Yes : Overwrite::No);
+  progress.start_phase("read");
+  const LoadedTin loaded = load(config.input, progress);
+  std::vector<std::uint8_t> pits = find_pits(loaded.tin).is_pit;
+  std::replace(pits.begin(), pits.end(), std::uint8_t{2}, std::uint8_t{0});
+  progress.start_phase("draw");
+  const PictureScene scene{.tin = loaded.tin,
+                           .horizontal_metres_per_unit = loaded.plane.metres_per_unit(),
+                           .vertical_metres_per_unit = loaded.plane.vertical_metres_per_unit(),
+                           .pits_before = {},
+                           .pits_after = pits,
+                           .flipped = {},
+                           .title = std::filesystem::path(config.input).filename().string(),
+                           .width_px = config.width_px};
+  draw_picture(path, std::filesystem::path(config.output).extension().string(), scene, progress);
+  outputs.commit();
+  progress.advance(1);
+}
+
+}  // namespace thalweg

@@ -1,0 +1,146 @@
+// The optimisation of a TIN that exists.
+//
+// The vertices and constraint edges are triangulated anew (constrained Delaunay); an edge of the outline that
+// is missing there is added as a boundary constraint and the triangulation repeated. The surface is what lies
+// inside of the outline: a flood from the inner side of every outline edge that does not cross the outline.
+#include "pipeline/plane.hpp"
+#include "pipeline/surface.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/io/read_tin.hpp>
+#include <thalweg/mesh/validate.hpp>
+#include <thalweg/pipeline/build.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+/// The TIN file without the vertices that are in no triangle.
+TinFile without_unused_vertices(TinFile file, Report& report) {
+  std::vector<VertexId> renamed(file.points.size());
+  for (const Triangle& t : file.triangles) {
+    for (const VertexId v : t) renamed[v.index()] = v;
+  }
+  std::size_t next = 0;
+  for (std::size_t v = 0; v < renamed.size(); ++v) {
+    if (!renamed[v].valid()) continue;
+    file.points[next] = file.points[v];
+    file.heights[next] = file.heights[v];
+    renamed[v] = VertexId{next++};
+  }
+  report.tin.vertices_left_out = renamed.size() - next;
+  file.points.resize(next);
+  file.heights.resize(next);
+  for (Triangle& t : file.triangles) {
+    for (VertexId& v : t) v = renamed[v.index()];
+  }
+  for (ConstraintEdge& edge : file.constraints) {
+    edge.a = renamed[edge.a.index()];
+    edge.b = renamed[edge.b.index()];
+  }
+  return file;
+}
+
+std::vector<std::pair<VertexId, VertexId>> outline_of(const Tin& tin) {
+  std::vector<std::pair<VertexId, VertexId>> outline;
+  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (tin.on_rim(h)) outline.emplace_back(tin.origin(h), tin.target(h));
+  }
+  return outline;
+}
+
+std::vector<bool> inside_of(const Tin& ground, const std::vector<std::pair<VertexId, VertexId>>& outline) {
+  std::vector<bool> wall(ground.halfedge_count(), false);
+  std::vector<TriangleId> queue;
+  std::vector<bool> inside(ground.triangle_count(), false);
+  const auto enter = [&](TriangleId t) {
+    if (inside[t.index()]) return;
+    inside[t.index()] = true;
+    queue.push_back(t);
+  };
+  for (const auto& [a, b] : outline) {
+    const HalfedgeId h = ground.find_halfedge(a, b);
+    if (!h.valid()) continue;
+    wall[h.index()] = true;
+    enter(Tin::triangle_of(h));
+  }
+  while (!queue.empty()) {
+    const TriangleId t = queue.back();
+    queue.pop_back();
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (!ground.on_rim(h) && !wall[h.index()]) enter(Tin::triangle_of(ground.twin(h)));
+    }
+  }
+  return inside;
+}
+
+Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points, Progress& progress) {
+  const Tin given(plane_points, file.heights, file.triangles, file.constraints);
+  if (const auto violations = validate(given, {}); !violations.empty()) {
+    throw Error(ErrorCode::InvalidTin, "the TIN breaks law " + std::to_string(violations.front().code) +
+                                           ": " + violations.front().what +
+                                           "; `thalweg info` lists all violations");
+  }
+  const auto outline = outline_of(given);
+  std::vector<ConstraintEdge> constraints = given.constraint_edges();
+  Terrain terrain;
+  terrain.ground = triangulate(plane_points, file.heights, constraints, progress);
+  const std::size_t before = constraints.size();
+  for (const auto& [a, b] : outline) {
+    if (!terrain.ground.find_halfedge(a, b).valid() && !terrain.ground.find_halfedge(b, a).valid()) {
+      constraints.push_back({a, b, EdgeKind::Boundary});
+    }
+  }
+  if (constraints.size() > before) {
+    terrain.ground = triangulate(std::move(plane_points), file.heights, constraints, progress);
+  }
+  terrain.keep = inside_of(terrain.ground, outline);
+  const bool bounded = std::any_of(constraints.begin(), constraints.end(), [](const ConstraintEdge& edge) {
+    return has(edge.kind, EdgeKind::Boundary);
+  });
+  if (bounded) {
+    terrain.mode = GroundMode::Polygon;
+    terrain.ground = keep_triangles(terrain.ground, terrain.keep);
+    terrain.keep.assign(terrain.ground.triangle_count(), true);
+  }
+  return terrain;
+}
+
+}  // namespace
+
+Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
+  Stopwatch watch;
+  Report report;
+  report.command = "optimize";
+  RunOutputs outputs(config.output);
+
+  progress.start_phase("read");
+  TinFile file = without_unused_vertices(read_tin(config.input, progress), report);
+  const CrsInfo crs = describe_crs(file.crs);
+  note_assumptions(crs, report);
+  const Plane plane(crs, file.points);
+  report.input.points_read = file.points.size() + report.tin.vertices_left_out;
+  report.input.points_used = file.points.size();
+  progress.advance(1);
+  report.timings_s.read = watch.lap();
+
+  progress.start_phase("triangulate");
+  Terrain terrain = triangulate_again(file, plane.to_plane(file.points, progress), progress);
+  if (plane.projected()) {
+    terrain.written = file.points;
+    terrain.continuous = plane.to_lonlat(file.points);
+  }
+  progress.advance(1);
+
+  finish_run(terrain, {plane, crs, config.labelling, config.output, outputs, watch}, report, progress);
+  return report;
+}
+
+}  // namespace thalweg

@@ -1,0 +1,63 @@
+// The metric plane: a conformal frame about the data where coordinates are angles, else the identity.
+#include "pipeline/plane.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace thalweg {
+
+namespace {
+
+Point2 from_greenwich(const CrsInfo& crs, Point2 written) {
+  return {written.x * crs.degrees_per_unit + crs.prime_meridian_deg, written.y * crs.degrees_per_unit};
+}
+
+std::vector<Point2> all_from_greenwich(const CrsInfo& crs, std::span<const Point2> written) {
+  std::vector<Point2> lonlat(written.begin(), written.end());
+  if (crs.degrees_per_unit == 1 && crs.prime_meridian_deg == 0) return lonlat;
+  for (Point2& p : lonlat) p = from_greenwich(crs, p);
+  return lonlat;
+}
+
+}  // namespace
+
+Plane::Plane(const CrsInfo& crs, std::span<const Point2> extent) : crs_(crs) {
+  if (!crs.geographic) return;
+  frame_ = MetricFrame::for_extent(all_from_greenwich(crs, extent), ellipsoid());
+}
+
+Point2 Plane::to_plane(Point2 written) const {
+  return frame_ ? frame_->to_plane(from_greenwich(crs_, written)) : written;
+}
+
+std::vector<Point2> Plane::to_plane(std::span<const Point2> written, const Progress& progress) const {
+  if (!frame_) return {written.begin(), written.end()};
+  return frame_->to_plane(all_from_greenwich(crs_, written), progress);
+}
+
+Point2 Plane::to_written(Point2 plane) const {
+  if (!frame_) return plane;
+  const Point2 lonlat = frame_->to_geographic(plane);
+  if (crs_.degrees_per_unit == 1 && crs_.prime_meridian_deg == 0) return lonlat;
+  return {(lonlat.x - crs_.prime_meridian_deg) / crs_.degrees_per_unit, lonlat.y / crs_.degrees_per_unit};
+}
+
+Point2 Plane::to_lonlat(Point2 written) const {
+  return frame_->continuous(from_greenwich(crs_, written));
+}
+
+std::vector<Point2> Plane::to_lonlat(std::span<const Point2> written) const {
+  std::vector<Point2> lonlat;
+  lonlat.reserve(written.size());
+  std::transform(written.begin(), written.end(), std::back_inserter(lonlat),
+                 [&](Point2 p) { return to_lonlat(p); });
+  return lonlat;
+}
+
+std::vector<Point2> positions_of(const Survey& survey) {
+  std::vector<Point2> all(survey.points.xy);
+  for (const SurveyLine& line : survey.lines) all.insert(all.end(), line.xy.begin(), line.xy.end());
+  return all;
+}
+
+}  // namespace thalweg

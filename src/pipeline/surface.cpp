@@ -1,0 +1,316 @@
+// From ground to files.
+//
+// 1. The first-order quadrilaterals are found on the whole ground (orders count what the points and
+// constraint
+//    edges say, whether or not a triangle is part of the surface). Those of which both triangles are surface,
+//    and which are strictly convex in the written coordinates too, may be flipped.
+// 2. The optimiser labels them; the flipped TIN is checked in the plane and in the written coordinates, and
+// its
+//    pits are counted again by plain code, before anything is written.
+// 3. All files are written aside and renamed together.
+#include "pipeline/surface.hpp"
+
+#include "pipeline/digest.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/geodesy/area.hpp>
+#include <thalweg/geometry/predicates.hpp>
+#include <thalweg/io/picture.hpp>
+#include <thalweg/io/write_tin.hpp>
+#include <thalweg/mesh/rim.hpp>
+#include <thalweg/mesh/validate.hpp>
+#include <thalweg/terrain/pits.hpp>
+#include <thalweg/terrain/statistics.hpp>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
+namespace thalweg {
+
+double Stopwatch::lap() {
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  return seconds;
+}
+
+double Stopwatch::total() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+RunOutputs::RunOutputs(const OutputConfig& config) {
+  const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
+  check_write_options(config.path, {.format = config.format, .creation_options = config.creation_options});
+  PendingOutputs().add(config.path, mode);  // the TIN's writer adds it again, with its sidecars
+  const auto reserve = [&](const std::string& path) {
+    return path.empty() || path == "-" ? std::string() : pending.add(path, mode);
+  };
+  report = reserve(config.report_path);
+  picture = reserve(config.picture_path);
+  problem = reserve(config.problem_path);
+}
+
+namespace {
+
+std::vector<std::uint32_t> surface_indices(const std::vector<bool>& keep) {
+  std::vector<std::uint32_t> index(keep.size(), TriangleId::kInvalid);
+  std::uint32_t next = 0;
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    if (keep[t]) index[t] = next++;
+  }
+  return index;
+}
+
+bool convex_as_written(const Quadrilateral& q, std::span<const Point2> written) {
+  if (written.empty()) return true;
+  const auto at = [&](VertexId v) { return written[v.index()]; };
+  return orientation(at(q.s), at(q.u), at(q.t)) > 0 && orientation(at(q.t), at(q.v), at(q.s)) > 0;
+}
+
+// Triangles keep their order and their first corner when others are dropped, so halfedges map by triangle.
+std::vector<Quadrilateral> on_surface(std::vector<Quadrilateral> found, const Terrain& terrain) {
+  const std::vector<std::uint32_t> index = surface_indices(terrain.keep);
+  std::vector<Quadrilateral> kept;
+  for (Quadrilateral q : found) {
+    const TriangleId left = Tin::triangle_of(q.diagonal);
+    const TriangleId right = Tin::triangle_of(terrain.ground.twin(q.diagonal));
+    if (!terrain.keep[left.index()] || !terrain.keep[right.index()]) continue;
+    if (!convex_as_written(q, terrain.continuous)) continue;
+    q.diagonal = Tin::halfedge(TriangleId{index[left.index()]}, q.diagonal.index() % 3);
+    kept.push_back(q);
+  }
+  return kept;
+}
+
+void refuse_violations(const Tin& tin, std::span<const Point2> written) {
+  const std::vector<Violation> violations = validate(tin, written);
+  if (violations.empty()) return;
+  throw Error(ErrorCode::InvalidTin, "the TIN breaks law " + std::to_string(violations.front().code) + ": " +
+                                         violations.front().what + " (" + std::to_string(violations.size()) +
+                                         " violations); nothing was written");
+}
+
+ReportFirstOrder describe_structure(const OptimizeResult& result, const LabellingConfig& labelling) {
+  return {.definition = std::string(definition_name(labelling.definition)),
+          .quadrilaterals = result.quadrilaterals,
+          .flipped = static_cast<std::size_t>(std::count(result.flipped.begin(), result.flipped.end(), 1)),
+          .fixed_by_elimination = result.fixed_by_elimination,
+          .pieces = result.pieces,
+          .largest_piece = result.largest_piece,
+          .width = result.width};
+}
+
+std::vector<ReportCriterion> describe_criteria(const OptimizeResult& result) {
+  std::vector<ReportCriterion> criteria;
+  for (const CriterionResult& c : result.criteria) {
+    criteria.push_back({c.name, c.unit, c.direction, c.delaunay, c.result, c.bound, c.optimal, c.method});
+  }
+  return criteria;
+}
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+std::vector<std::uint8_t> interior_pits(const PitSummary& pits) {
+  std::vector<std::uint8_t> flags(pits.is_pit.size());
+  std::transform(pits.is_pit.begin(), pits.is_pit.end(), flags.begin(),
+                 [](std::uint8_t kind) { return static_cast<std::uint8_t>(kind == 1 ? 1 : 0); });
+  return flags;
+}
+
+void write_text(const std::string& path, const std::string& target, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.close();
+  if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
+}
+
+}  // namespace
+
+ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point2> written) {
+  const TinStatistics statistics = measure(tin, plane.scale());
+  ReportTin report;
+  report.vertices = tin.vertex_count();
+  report.triangles = tin.triangle_count();
+  report.edges = tin.edge_count();
+  report.constraint_edges = tin.constraint_edges().size();
+  report.hull_vertices = statistics.hull_vertices;
+  report.area_m2 = statistics.area_m2;
+  if (plane.projected()) {
+    report.area_geodesic_m2 = geodesic_area_m2(plane.to_lonlat(written), rim_loops(tin), plane.ellipsoid());
+  }
+  report.min_angle_deg = statistics.min_angle_deg;
+  report.angle_histogram = statistics.angle_histogram;
+  report.flat_triangles = statistics.flat_triangles;
+  return report;
+}
+
+ReportCrs describe_plane(const Plane& plane, const CrsInfo& crs) {
+  return {.wkt = crs.wkt,
+          .metric_projection = plane.proj_string(),
+          .horizontal_metres_per_unit = crs.horizontal_metres_per_unit,
+          .vertical_metres_per_unit = crs.vertical_metres_per_unit};
+}
+
+ReportPits describe_pits(const PitSummary& pits) {
+  return {.interior = pits.interior, .boundary = pits.boundary, .lake = pits.lake};
+}
+
+void note_assumptions(const CrsInfo& crs, Report& report) {
+  if (!crs.known) {
+    report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
+  } else if (!crs.vertical_unit_told && crs.vertical_metres_per_unit != 1) {
+    report.notes.emplace_back(
+        "the CRS does not tell the unit of heights: that of its coordinates is assumed (" +
+        std::to_string(crs.vertical_metres_per_unit) + " m)");
+  }
+}
+
+namespace {
+
+/// The optimised TIN and what it came from.
+struct Labelled {
+  Tin delaunay;
+  std::vector<Quadrilateral> quadrilaterals;
+  OptimizeOptions options;
+  OptimizeResult result;
+  Tin tin;
+  std::vector<std::array<VertexId, 2>> new_diagonals;
+};
+
+Labelled choose_diagonals(const Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
+                          Progress& progress) {
+  Labelled labelled;
+  labelled.delaunay = keep_triangles(terrain.ground, terrain.keep);
+  if (labelled.delaunay.triangle_count() == 0) {
+    throw Error(ErrorCode::EmptyInput,
+                "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
+  }
+  seconds.triangulate += run.watch.lap();
+
+  progress.start_phase("orders");
+  if (run.labelling.order > 0) {
+    labelled.quadrilaterals = on_surface(
+        find_quadrilaterals(terrain.ground, {.definition = run.labelling.definition, .mode = terrain.mode},
+                            progress),
+        terrain);
+  }
+  progress.advance(1);
+  seconds.orders = run.watch.lap();
+
+  progress.start_phase("optimize");
+  labelled.options = {.criteria = run.labelling.criteria,
+                      .horizontal_metres_per_unit = run.plane.metres_per_unit(),
+                      .vertical_metres_per_unit = run.plane.vertical_metres_per_unit()};
+  if (run.labelling.effort) labelled.options.effort = *run.labelling.effort;
+  labelled.result =
+      optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
+  std::vector<HalfedgeId> flips;
+  for (std::size_t q = 0; q < labelled.quadrilaterals.size(); ++q) {
+    if (labelled.result.flipped[q] == 0) continue;
+    flips.push_back(labelled.quadrilaterals[q].diagonal);
+    labelled.new_diagonals.push_back({labelled.quadrilaterals[q].s, labelled.quadrilaterals[q].t});
+  }
+  labelled.tin = flip_edges(labelled.delaunay, flips);
+  progress.advance(1);
+  seconds.optimize = run.watch.lap();
+  return labelled;
+}
+
+void describe_result(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
+                     Report& report) {
+  ReportTin tin = describe_tin(labelled.tin, run.plane, terrain.written);
+  tin.dropped_rim_triangles = report.tin.dropped_rim_triangles;
+  tin.vertices_left_out = report.tin.vertices_left_out;
+  tin.angle_histogram_delaunay = measure(labelled.delaunay, run.plane.scale()).angle_histogram;
+  tin.max_order = labelled.new_diagonals.empty() ? 0 : 1;
+  report.tin = tin;
+  report.crs = describe_plane(run.plane, run.crs);
+  report.digest = digest_of(labelled.tin, terrain.written);
+  report.first_order = describe_structure(labelled.result, run.labelling);
+  report.criteria = describe_criteria(labelled.result);
+}
+
+std::vector<std::uint16_t> orders_of(const Labelled& labelled) {
+  std::vector<std::uint16_t> orders(labelled.tin.triangle_count(), 0);
+  for (const auto& [a, b] : labelled.new_diagonals) {
+    for (const HalfedgeId h : {labelled.tin.find_halfedge(a, b), labelled.tin.find_halfedge(b, a)}) {
+      orders[Tin::triangle_of(h).index()] = 1;
+    }
+  }
+  return orders;
+}
+
+void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
+  for (const CriterionResult& c : result.criteria) {
+    if (c.name != "local-minima" || c.result == static_cast<double>(pits.interior)) continue;
+    throw Error(ErrorCode::Internal, "the optimiser counts " + std::to_string(c.result) +
+                                         " pits, the TIN has " + std::to_string(pits.interior));
+  }
+}
+
+void draw_result(const Labelled& labelled, const PitSummary& before, const PitSummary& after,
+                 const RunContext& run, Progress& progress) {
+  const std::vector<std::uint8_t> pits_before = interior_pits(before);
+  const std::vector<std::uint8_t> pits_after = interior_pits(after);
+  const PictureScene scene{.tin = labelled.tin,
+                           .horizontal_metres_per_unit = run.plane.metres_per_unit(),
+                           .vertical_metres_per_unit = run.plane.vertical_metres_per_unit(),
+                           .pits_before = pits_before,
+                           .pits_after = pits_after,
+                           .flipped = labelled.new_diagonals,
+                           .title = std::filesystem::path(run.output.path).filename().string()};
+  draw_picture(run.outputs.picture, std::filesystem::path(run.output.picture_path).extension().string(),
+               scene, progress);
+}
+
+}  // namespace
+
+void finish_run(const Terrain& terrain, const RunContext& run, Report& report, Progress& progress) {
+  const Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
+
+  progress.start_phase("check");
+  refuse_violations(labelled.tin, terrain.continuous);
+  const PitSummary pits_before = find_pits(labelled.delaunay);
+  const PitSummary pits_after = find_pits(labelled.tin);
+  check_pit_count(labelled.result, pits_after);
+  describe_result(labelled, terrain, run, report);
+  report.pits_delaunay = describe_pits(pits_before);
+  report.pits_result = describe_pits(pits_after);
+  progress.advance(1);
+  run.watch.lap();
+
+  progress.start_phase("write");
+  const std::vector<std::uint16_t> orders = orders_of(labelled);
+  const TinView view{.tin = labelled.tin,
+                     .written_xy = terrain.written,
+                     .crs_wkt = run.crs.wkt,
+                     .crs_authority = run.crs.authority,
+                     .is_pit = pits_after.is_pit,
+                     .vertex_source = terrain.vertex_source,
+                     .triangle_orders = orders,
+                     .conflicts = report.conflicts};
+  write_tin(run.output.path, view,
+            {.format = run.output.format, .creation_options = run.output.creation_options},
+            run.outputs.pending, run.output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
+  if (!run.outputs.picture.empty()) draw_result(labelled, pits_before, pits_after, run, progress);
+  report.timings_s.write = run.watch.lap();
+  report.timings_s.total = run.watch.total();
+  report.peak_memory_bytes = peak_memory_bytes();
+  if (!run.outputs.report.empty()) write_text(run.outputs.report, run.output.report_path, to_json(report));
+  progress.check();
+  run.outputs.pending.commit();
+  progress.advance(1);
+}
+
+}  // namespace thalweg

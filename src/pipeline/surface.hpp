@@ -1,0 +1,71 @@
+#pragma once
+
+/// The second half of every run: from the constrained Delaunay ground to the optimised TIN and its files.
+
+#include "pipeline/plane.hpp"
+
+#include <thalweg/io/pending_outputs.hpp>
+#include <thalweg/mesh/tin.hpp>
+#include <thalweg/order/quadrilaterals.hpp>
+#include <thalweg/pipeline/build.hpp>
+#include <thalweg/terrain/pits.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+namespace thalweg {
+
+/// Seconds since the last call of `lap`, or since construction.
+class Stopwatch {
+ public:
+  double lap();
+  [[nodiscard]] double total() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+/// The files of a run: paths are reserved before the work starts, so that a missing folder or an existing
+/// output is said at once, and renamed together when all are whole.
+struct RunOutputs {
+  explicit RunOutputs(const OutputConfig& config);
+
+  PendingOutputs pending;
+  std::string report, picture, problem;  ///< temporary paths; empty where none was asked for
+};
+
+/// The ground and what of it is surface.
+struct Terrain {
+  Tin ground;
+  GroundMode mode = GroundMode::Hull;
+  std::vector<bool> keep;                   ///< per triangle of the ground: part of the surface
+  std::vector<Point2> written;              ///< per vertex, as written to files; empty: the plane's own
+  std::vector<Point2> continuous;           ///< the same without a jump at the antimeridian, to check them
+  std::vector<std::uint8_t> vertex_source;  ///< per vertex: 0 point, 1 line vertex, 2 crossing
+};
+
+/// What a run works with from the ground on.
+struct RunContext {
+  const Plane& plane;
+  const CrsInfo& crs;
+  const LabellingConfig& labelling;
+  const OutputConfig& output;
+  RunOutputs& outputs;
+  Stopwatch& watch;
+};
+
+/// Finds the quadrilaterals, optimises, checks, writes all outputs, and fills the rest of the report.
+/// Throws: Error; nothing is left behind then.
+void finish_run(const Terrain& terrain, const RunContext& run, Report& report, Progress& progress);
+
+/// Counts that the report, `info` and the demo share.
+ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point2> written);
+ReportCrs describe_plane(const Plane& plane, const CrsInfo& crs);
+ReportPits describe_pits(const PitSummary& pits);
+/// Notes in the report what is taken for granted where the CRS does not tell.
+void note_assumptions(const CrsInfo& crs, Report& report);
+
+}  // namespace thalweg

@@ -1,0 +1,40 @@
+#pragma once
+
+/// What the subcommands share: options that all take, and where they print.
+
+#include <thalweg/base/progress.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace thalweg::cli {
+
+enum class Format { Text, Json };
+
+/// Options of every command, and the progress that signals cancel.
+struct Common {
+  Format format = Format::Text;
+  int quiet = 0;
+  std::size_t threads = 0;  ///< 0: all cores
+};
+
+/// Adds --quiet, --format and, where work is parallel, --threads.
+void add_common_options(CLI::App& command, Common& common);
+
+/// The progress of the running command: drawn on stderr if that is a terminal and quiet is not set; cancelled
+/// by SIGINT and SIGTERM.
+Progress& progress_of(const Common& common);
+
+/// Prints data to stdout whole. Throws: Error{WriteFailed} (a closed pipe, a full disk).
+void print(const std::string& text);
+
+/// Registers the subcommands.
+void add_build_command(CLI::App& app);
+void add_optimize_command(CLI::App& app);
+void add_order_command(CLI::App& app);
+void add_info_command(CLI::App& app);
+void add_view_command(CLI::App& app);
+void add_formats_command(CLI::App& app);
+
+}  // namespace thalweg::cli

@@ -1,0 +1,89 @@
+// thalweg info, view and formats.
+#include "command.hpp"
+
+#include <thalweg/io/write_tin.hpp>
+#include <thalweg/pipeline/inspect.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <memory>
+#include <string>
+
+namespace thalweg::cli {
+
+void add_info_command(CLI::App& app) {
+  struct Arguments {
+    std::string input;
+    Common common;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("info", "what a TIN is: counts, CRS, extent, pits, histograms, validity");
+  command->add_option("TIN", a->input, "TIN file")->required();
+  add_common_options(*command, a->common);
+  command->callback([a] {
+    const TinInfo info = inspect_tin(a->input, progress_of(a->common));
+    print(a->common.format == Format::Json ? to_json(info) : to_text(info));
+  });
+}
+
+void add_view_command(CLI::App& app) {
+  struct Arguments {
+    ViewConfig config;
+    Common common;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("view", "a picture of a TIN");
+  command->add_option("TIN", a->config.input, "TIN file")->required();
+  command->add_option("OUTPUT", a->config.output, "picture: .png, .svg or .pdf")->required();
+  command->add_option("--width", a->config.width_px, "width in pixels")->check(CLI::Range(200, 20000));
+  command->add_flag("--overwrite", a->config.overwrite, "replace an existing output");
+  add_common_options(*command, a->common);
+  command->callback([a] { view_tin(a->config, progress_of(a->common)); });
+}
+
+namespace {
+
+std::string formats_text() {
+  std::string text = fmt::format("{:<10}{:<18}{:<8}{}\n", "TIN", "extensions", "access", "what it is");
+  for (const FormatInfo& format : tin_formats()) {
+    std::string extensions;
+    for (const std::string& extension : format.extensions) extensions += extension + " ";
+    text +=
+        fmt::format("{:<10}{:<18}{:<8}{}\n", format.name, extensions,
+                    std::string(format.reads ? "r" : "-") + (format.writes ? "w" : "-"), format.description);
+  }
+  text +=
+      "\nPoints: any OGR point layer; text (.csv .xyz .txt); any GDAL raster, a point a cell centre.\n"
+      "Lines and areas: any OGR line or polygon layer. Pictures: .png .svg .pdf.\n";
+  return text;
+}
+
+std::string formats_json() {
+  using Json = nlohmann::ordered_json;
+  Json tins = Json::array();
+  for (const FormatInfo& format : tin_formats()) {
+    tins.push_back({{"name", format.name},
+                    {"description", format.description},
+                    {"extensions", format.extensions},
+                    {"reads", format.reads},
+                    {"writes", format.writes}});
+  }
+  const Json json = {{"tin", tins},
+                     {"points", {"OGR point layers", "text (.csv .xyz .txt)", "GDAL rasters"}},
+                     {"lines", {"OGR line and polygon layers"}},
+                     {"pictures", {".png", ".svg", ".pdf"}}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+void add_formats_command(CLI::App& app) {
+  auto common = std::make_shared<Common>();
+  CLI::App* command = app.add_subcommand("formats", "what is read and written");
+  add_common_options(*command, *common);
+  command->callback([common] { print(common->format == Format::Json ? formats_json() : formats_text()); });
+}
+
+}  // namespace thalweg::cli

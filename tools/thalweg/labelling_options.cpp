@@ -1,0 +1,89 @@
+// Options that `build` and `optimize` share: what is optimised, where results go.
+#include "labelling_options.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+namespace thalweg::cli {
+
+void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
+  command.add_option("--order", arguments.order,
+                     "largest constrained order of a triangle; 0 is the constrained Delaunay triangulation");
+  command.add_option("--definition", arguments.definition, "which constrained order");
+  command.add_option("--optimize", arguments.optimize,
+                     "criteria in order of priority, separated by commas, or none");
+  command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)");
+}
+
+void add_output_options(CLI::App& command, OutputConfig& output) {
+  command.add_option("--of", output.format,
+                     "output format (default: by the extension; see `thalweg formats`)");
+  command.add_option("--co", output.creation_options, "creation option of the format, K=V; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--overwrite", output.overwrite, "replace existing outputs");
+  command.add_option("--report", output.report_path, "JSON report; - for stdout");
+  command.add_option("--picture", output.picture_path, "picture of the result: .png, .svg or .pdf");
+  command.add_option("--dump-problem", output.problem_path,
+                     "the labelling problem for another solver: .cfn or .wcsp");
+}
+
+namespace {
+
+unsigned parse_order(const std::string& text) {
+  if (text == "0") return 0;
+  if (text == "1") return 1;
+  throw Error(ErrorCode::Usage, "--order takes 0 or 1, not '" + text + "'; higher orders are not available");
+}
+
+std::string criterion_names() {
+  std::string names;
+  for (const CriterionTraits& traits : all_criteria()) {
+    names += (names.empty() ? "" : ", ") + std::string(traits.name);
+  }
+  return names;
+}
+
+std::vector<Criterion> parse_criteria(const std::string& text) {
+  std::vector<Criterion> criteria;
+  if (text == "none") return criteria;
+  std::istringstream list(text);
+  for (std::string name; std::getline(list, name, ',');) {
+    const auto criterion = find_criterion(name);
+    if (!criterion) {
+      throw Error(ErrorCode::Usage,
+                  "--optimize: '" + name + "' is no criterion; there are " + criterion_names());
+    }
+    if (std::find(criteria.begin(), criteria.end(), *criterion) != criteria.end()) {
+      throw Error(ErrorCode::Usage, "--optimize names '" + name + "' twice");
+    }
+    criteria.push_back(*criterion);
+  }
+  if (criteria.empty()) throw Error(ErrorCode::Usage, "--optimize is empty; give criteria or none");
+  return criteria;
+}
+
+}  // namespace
+
+LabellingConfig parse_labelling(const LabellingArguments& arguments) {
+  LabellingConfig config;
+  config.order = parse_order(arguments.order);
+  config.definition = parse_definition(arguments.definition);
+  config.criteria = parse_criteria(arguments.optimize);
+  if (arguments.effort > 0) config.effort = arguments.effort;
+  return config;
+}
+
+void print_report(const Report& report, const Common& common, const OutputConfig& output) {
+  if (output.report_path == "-" || (common.quiet == 0 && common.format == Format::Json)) {
+    print(to_json(report));
+  } else if (common.quiet == 0) {
+    print(to_text(report));
+  }
+}
+
+}  // namespace thalweg::cli

@@ -1,0 +1,32 @@
+// thalweg optimize: the same optimisation on a TIN that exists.
+#include "command.hpp"
+#include "labelling_options.hpp"
+
+#include <thalweg/pipeline/build.hpp>
+
+#include <memory>
+
+namespace thalweg::cli {
+
+void add_optimize_command(CLI::App& app) {
+  struct Arguments {
+    OptimizeConfig config;
+    LabellingArguments labelling;
+    Common common;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("optimize", "optimise a TIN that exists; its constraint edges are kept");
+  command->add_option("TIN", a->config.input, "TIN file")->required();
+  command->add_option("OUTPUT", a->config.output.path, "TIN file to write")->required();
+  add_labelling_options(*command, a->labelling);
+  add_output_options(*command, a->config.output);
+  add_common_options(*command, a->common);
+  command->callback([a] {
+    a->config.labelling = parse_labelling(a->labelling);
+    const Report report = optimize_tin(a->config, progress_of(a->common));
+    print_report(report, a->common, a->config.output);
+  });
+}
+
+}  // namespace thalweg::cli

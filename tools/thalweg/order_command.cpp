@@ -1,0 +1,78 @@
+// thalweg order: constrained orders of triangles, and the first-order quadrilaterals.
+#include "command.hpp"
+#include "source_options.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/pipeline/order_points.hpp>
+
+#include <charconv>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::cli {
+
+namespace {
+
+struct OrderArguments {
+  std::vector<std::string> points;
+  SourceArguments sources;
+  std::vector<std::string> triangles;
+  std::string definition = "sees-opp";
+  OrderConfig config;
+  Common common;
+};
+
+std::array<std::uint32_t, 3> parse_triangle(const std::string& text) {
+  std::array<std::uint32_t, 3> corners{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto [rest, error] = std::from_chars(at, end, corners[i]);
+    const bool last = i + 1 == corners.size();
+    if (error != std::errc() || (last ? rest != end : rest == end || *rest != ',')) {
+      throw Error(ErrorCode::Usage, "--triangle takes three ids A,B,C, not '" + text + "'");
+    }
+    at = last ? rest : rest + 1;
+  }
+  return corners;
+}
+
+void run_order(OrderArguments& a) {
+  OrderConfig& config = a.config;
+  for (const std::string& source : a.points) config.points.push_back(parse_source(source));
+  apply_sources(a.sources, config.read, config.lines);
+  for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
+  config.definition = parse_definition(a.definition);
+  const OrderResult result = order_points(config, progress_of(a.common));
+  if (a.common.format == Format::Json) {
+    print(to_json(result));
+  } else if (a.common.quiet == 0 || !result.asked.empty()) {
+    print(to_text(result));
+  }
+}
+
+}  // namespace
+
+void add_order_command(CLI::App& app) {
+  auto a = std::make_shared<OrderArguments>();
+  CLI::App* command =
+      app.add_subcommand("order", "constrained orders: of triangles, and first-order quadrilaterals");
+  command->add_option("POINTS", a->points, "sources of points; x and y suffice")->required();
+  add_source_options(*command, a->sources, a->config.read);
+  add_crossing_option(*command, a->config.ground);
+  command
+      ->add_option("--triangle", a->triangles,
+                   "A,B,C: the orders of this triangle under all definitions; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--definition", a->definition, "which constrained order (default: sees-opp)");
+  command->add_option("--list-quadrilaterals", a->config.quadrilaterals_path,
+                      "CSV s,u,t,v,delaunay of the first-order quadrilaterals");
+  command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
+  add_common_options(*command, a->common);
+  command->callback([a] { run_order(*a); });
+}
+
+}  // namespace thalweg::cli

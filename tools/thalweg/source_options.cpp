@@ -1,0 +1,87 @@
+// Options about sources that `build` and `order` share.
+#include "source_options.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <charconv>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace thalweg::cli {
+
+namespace {
+
+Box2 parse_box(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (at < end) {
+    double value = 0;
+    const auto [rest, error] = std::from_chars(at, end, value);
+    if (error != std::errc() || (rest != end && *rest != ',' && *rest != ' ')) break;
+    numbers.push_back(value);
+    at = rest == end ? end : rest + 1;
+  }
+  if (numbers.size() != 4 || at != end || !(numbers[0] <= numbers[2]) || !(numbers[1] <= numbers[3])) {
+    throw Error(ErrorCode::Usage, "--bbox takes xmin,ymin,xmax,ymax, not '" + text + "'");
+  }
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+void add_lines(const std::vector<std::string>& files, EdgeKind kind, std::vector<LineSource>& lines) {
+  for (const std::string& file : files) lines.push_back({parse_source(file), kind});
+}
+
+}  // namespace
+
+void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read) {
+  const auto lines = [&](const char* name, std::vector<std::string>& files, const char* what) {
+    command.add_option(name, files, what)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  lines("--ridges", a.ridges, "ridge lines; repeatable");
+  lines("--valleys", a.valleys, "valley lines; repeatable");
+  lines("--breaklines", a.breaklines, "other lines that the TIN keeps; repeatable");
+  lines("--boundary", a.boundary, "areas to keep; points outside are dropped; repeatable");
+  command.add_option("--z-field", read.z_field, "attribute or column with the height of points");
+  command.add_option("--line-z-field", read.line_z_field, "attribute with the height of lines");
+  command.add_option("--kind-field", read.kind_field, "attribute that says ridge or valley");
+  command.add_option("--where", read.where, "attribute filter, SQL");
+  command.add_option("--bbox", a.bbox, "xmin,ymin,xmax,ymax: only what lies there");
+  command.add_option("--s-crs", read.source_crs, "CRS of the sources, in place of their own (-s_srs)");
+  command.add_option("--t-crs", read.target_crs, "CRS to transform to (-t_srs)");
+  command.add_option("--a-crs", read.assigned_crs, "CRS to assign without transforming (-a_srs)");
+  command
+      .add_option("--nodata", read.nodata, "nodata inside of a DEM: bridge-holes, bridge-all, bridge-none")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, NodataMode>{{"bridge-holes", NodataMode::BridgeHoles},
+                                                                    {"bridge-all", NodataMode::BridgeAll},
+                                                                    {"bridge-none", NodataMode::BridgeNone}}))
+      ->default_str("bridge-holes");
+}
+
+void add_crossing_option(CLI::App& command, GroundOptions& ground) {
+  command.add_option("--crossing", ground.crossing, "height where lines cross, touch or overlap")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, CrossingRule>{{"auto", CrossingRule::Auto},
+                                                                      {"error", CrossingRule::Error},
+                                                                      {"lower", CrossingRule::Lower},
+                                                                      {"higher", CrossingRule::Higher},
+                                                                      {"mean", CrossingRule::Mean},
+                                                                      {"first", CrossingRule::First},
+                                                                      {"last", CrossingRule::Last}}))
+      ->default_str(ground.crossing == CrossingRule::Error ? "error" : "auto");
+}
+
+void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vector<LineSource>& lines) {
+  add_lines(arguments.ridges, EdgeKind::Ridge, lines);
+  add_lines(arguments.valleys, EdgeKind::Valley, lines);
+  add_lines(arguments.breaklines, EdgeKind::Breakline, lines);
+  add_lines(arguments.boundary, EdgeKind::Boundary, lines);
+  if (!arguments.bbox.empty()) read.bbox = parse_box(arguments.bbox);
+}
+
+}  // namespace thalweg::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+/// Options about sources that `build` and `order` share.
+
+#include "command.hpp"
+
+#include <thalweg/delaunay/ground.hpp>
+#include <thalweg/io/source.hpp>
+
+#include <string>
+#include <vector>
+
+namespace thalweg::cli {
+
+/// Names of files as typed.
+struct SourceArguments {
+  std::vector<std::string> ridges, valleys, breaklines, boundary;
+  std::string bbox;
+};
+
+void add_source_options(CLI::App& command, SourceArguments& arguments, ReadOptions& read);
+void add_crossing_option(CLI::App& command, GroundOptions& ground);
+/// Turns the names into sources. Throws: Error{Usage}.
+void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vector<LineSource>& lines);
+
+}  // namespace thalweg::cli
