@@ -15,6 +15,8 @@
 
 namespace thalweg {
 
+constexpr std::uint32_t kMaxWidthLimit = 24;
+
 struct OptimizeOptions {
   /// In order of priority: each decides among the triangulations that are best in all before it.
   std::vector<Criterion> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
@@ -63,5 +65,17 @@ struct OptimizeResult {
 /// wide; runs on all threads.
 OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                     const OptimizeOptions& options, Progress& progress);
+
+/// Writes the problem for toulbar2, in its .cfn format (JSON), so that another solver can confirm the result.
+///
+/// Variable qI is quadrilateral I of the list, value 0 its diagonal uv, value 1 st. If local minima come
+/// first, outlet variables say by which diagonal each plateau is connected, and forbid every choice that has
+/// more pits than need be; the pits themselves are not in the cost. The cost is the value of the first sum
+/// among the criteria in steps of 2^-32 of its unit, the triangulation's constant part included; of flips, if
+/// there is no sum. The optimum found is so 2^32 times the `result` of that criterion. Lower priorities,
+/// flips and the tie rule are left out. Pre and Throws: as optimize_first_order, and Error{Usage} if there is
+/// no criterion. Complexity: linear, but for b^3 where b plateaus hang together.
+void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
+                  const OptimizeOptions& options, Progress& progress);
 
 }  // namespace thalweg
