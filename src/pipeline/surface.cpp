@@ -52,6 +52,9 @@ RunOutputs::RunOutputs(const OutputConfig& config) {
   const auto reserve = [&](const std::string& path) {
     return path.empty() || path == "-" ? std::string() : pending.add(path, mode);
   };
+  if (!config.problem_path.empty() && std::filesystem::path(config.problem_path).extension() != ".cfn") {
+    throw Error(ErrorCode::Usage, "--dump-problem writes .cfn, not '" + config.problem_path + "'");
+  }
   report = reserve(config.report_path);
   picture = reserve(config.picture_path);
   problem = reserve(config.problem_path);
@@ -259,6 +262,16 @@ void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
   }
 }
 
+void write_problem(const Labelled& labelled, const RunContext& run, Progress& progress) {
+  std::ofstream file(run.outputs.problem, std::ios::binary);
+  dump_problem(file, labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
+  file.close();
+  if (!file) {
+    throw Error(ErrorCode::WriteFailed,
+                run.output.problem_path + " could not be written whole; is the disk full?");
+  }
+}
+
 void draw_result(const Labelled& labelled, const PitSummary& before, const PitSummary& after,
                  const RunContext& run, Progress& progress) {
   const std::vector<std::uint8_t> pits_before = interior_pits(before);
@@ -303,6 +316,7 @@ void finish_run(const Terrain& terrain, const RunContext& run, Report& report, P
   write_tin(run.output.path, view,
             {.format = run.output.format, .creation_options = run.output.creation_options},
             run.outputs.pending, run.output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
+  if (!run.outputs.problem.empty()) write_problem(labelled, run, progress);
   if (!run.outputs.picture.empty()) draw_result(labelled, pits_before, pits_after, run, progress);
   report.timings_s.write = run.watch.lap();
   report.timings_s.total = run.watch.total();

@@ -29,7 +29,7 @@ void add_output_options(CLI::App& command, OutputConfig& output) {
   command.add_option("--report", output.report_path, "JSON report; - for stdout");
   command.add_option("--picture", output.picture_path, "picture of the result: .png, .svg or .pdf");
   command.add_option("--dump-problem", output.problem_path,
-                     "the labelling problem for another solver: .cfn or .wcsp");
+                     "the labelling problem for another solver, toulbar2's .cfn");
 }
 
 namespace {

@@ -24,7 +24,7 @@ struct OutputConfig {
   bool overwrite = false;
   std::string report_path;   ///< JSON report; empty: none ("-" is the caller's business)
   std::string picture_path;  ///< .png, .svg, .pdf; empty: none
-  std::string problem_path;  ///< labelling problem, .cfn or .wcsp; empty: none
+  std::string problem_path;  ///< labelling problem, .cfn; empty: none
 };
 
 /// How the triangulation is chosen.
