@@ -33,8 +33,8 @@ struct WriteOptions {
   std::vector<std::string> creation_options = {};  ///< "KEY=VALUE", any case of key
 };
 
-/// Throws what `write_tin` would throw for a format, extension or creation option that is not known: so that a
-/// long run can say so before it starts.
+/// Throws what `write_tin` would throw for a format, extension or creation option that is not known: so that
+/// a long run can say so before it starts.
 void check_write_options(const std::string& path, const WriteOptions& options);
 
 /// Writes the TIN, and a sidecar NAME.prj where the format cannot hold the CRS.

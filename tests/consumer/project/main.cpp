@@ -1,4 +1,5 @@
-// Uses the installed headers and library: builds a TIN of two triangles, checks it, and tries one that breaks a law.
+// Uses the installed headers and library: builds a TIN of two triangles, checks it, and tries one that breaks
+// a law.
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/mesh/validate.hpp>
