@@ -30,7 +30,7 @@ namespace {
 
 /// Doubles that are longitudes are up to 3e-9 m apart; two programs that compute the same one differ by a
 /// few.
-constexpr double kGeographicResolution_m = 0x1p-20;
+constexpr double kGeographicResolutionM = 0x1p-20;
 
 std::vector<std::uint8_t> sources_of(const Ground& ground) {
   std::vector<std::uint8_t> sources(ground.origins.size());
@@ -98,8 +98,8 @@ Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
 /// Narrows a mask to the triangles that stay when the TIN of those kept so far loses some.
 void narrow(std::vector<bool>& keep, const std::vector<bool>& stays) {
   std::size_t next = 0;
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (keep[t]) keep[t] = stays[next++];
+  for (auto&& kept : keep) {
+    if (kept) kept = stays[next++];
   }
 }
 
@@ -160,7 +160,7 @@ Report build(const BuildConfig& config, Progress& progress) {
   progress.start_phase("triangulate");
   GroundOptions ground_options = config.ground;
   ground_options.snap = config.snap_m / plane.metres_per_unit();
-  if (plane.projected()) ground_options.resolution = kGeographicResolution_m;
+  if (plane.projected()) ground_options.resolution = kGeographicResolutionM;
   Ground ground = build_ground(survey.survey, ground_options, progress);
   describe_input(read, ground, report);
   report.conflicts = std::move(ground.conflicts);
