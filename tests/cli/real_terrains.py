@@ -24,13 +24,11 @@ def commands(root):
                  "--ridges", f"{folder}/lines.gpkg|layername=ridges_3d"]
         yield name, [f"{folder}/dem.tif", *lines]
         for sample in ("offgrid", "random", "significant"):
-            yield f"{name}:{sample}", [f"{folder}/points_{sample}.csv", *lines, "--a-crs", f"{folder}/dem.tif"]
+            yield f"{name}:{sample}", [f"{folder}/points_{sample}.csv", *lines]
     yield "slovenia_nan_holes", [f"{root}/slovenia_lidar1m/dem_nan_holes.tif"]
     delft = f"{root}/delft_ahn3_bgt"
     yield "delft:3d", [f"{delft}/ground_water_points.csv", "--a-crs", "EPSG:28992",
                        "--breaklines", f"{delft}/bgt.gpkg|layername=breaklines_3d"]
-    yield "delft:2d", [f"{delft}/ground_water_points.csv", "--a-crs", "EPSG:28992", "--bbox",
-                       "84825,447449,85065,447620", "--breaklines", f"{delft}/bgt.gpkg|layername=breaklines_noded_2d"]
     staffs = f"{root}/staffordshire_sk00_contours"
     yield "staffordshire", [f"{staffs}/contours.gpkg|layername=spot_heights",
                             "--breaklines", f"{staffs}/contours.gpkg|layername=contours_3d"]
