@@ -165,6 +165,7 @@ Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges) {
 }
 
 Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep) {
+  if (std::find(keep.begin(), keep.end(), false) == keep.end()) return tin;
   std::vector<Triangle> triangles;
   std::vector<ConstraintEdge> constraints;
   for (std::size_t t = 0; t < tin.triangle_count(); ++t) {
