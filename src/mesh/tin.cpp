@@ -4,10 +4,15 @@
 // 2. Bucket halfedges by origin; the twin of a -> b is looked up in the bucket of b, whose size is a degree.
 // Large buckets
 //    are sorted by target and bisected, so that a hub of many triangles costs no more than other vertices.
+#include "base/parallel.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -17,6 +22,8 @@ namespace {
 
 // Up to here reading on beats bisection.
 constexpr std::size_t kFewEdges = 32;
+// Vertices that a thread takes at once.
+constexpr std::size_t kBlock = 8192;
 
 std::string describe(const Triangle& t) {
   return std::to_string(t[0].value()) + ", " + std::to_string(t[1].value()) + ", " +
@@ -77,18 +84,56 @@ void Tin::link_halfedges() {
               [&](HalfedgeId g, HalfedgeId h) { return std::pair(target(g), g) < std::pair(target(h), h); });
   }
 
+  // The triangles around a vertex hold all halfedges that leave it and all that reach it, so a small fan
+  // finds its own twins without a look at others.
   twins_.resize(count);
-  std::size_t rim = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const VertexId from = origin(HalfedgeId{i});
-    const VertexId to = target(HalfedgeId{i});
-    if (find_halfedge(from, to) != HalfedgeId{i}) {
-      throw Error(ErrorCode::InvalidTin, "two triangles lie on the same side of edge " +
-                                             std::to_string(from.value()) + ", " +
-                                             std::to_string(to.value()));
+  std::atomic<std::size_t> rim = 0;
+  std::atomic<std::uint32_t> repeated = HalfedgeId::kInvalid;  // the smallest one, whatever thread finds it
+  const auto report_repeated = [&](HalfedgeId h) {
+    std::uint32_t least = repeated;
+    while (h.value() < least && !repeated.compare_exchange_weak(least, h.value())) {
     }
-    twins_[i] = find_halfedge(to, from);
-    rim += twins_[i].valid() ? 0 : 1;
+  };
+  const auto link_small_fan = [&](std::span<const HalfedgeId> fan) {
+    std::array<VertexId, kFewEdges> targets;
+    std::array<VertexId, kFewEdges> apexes;
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      targets[i] = target(fan[i]);
+      apexes[i] = apex(fan[i]);
+    }
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      HalfedgeId twin;
+      for (std::size_t j = 0; j < fan.size(); ++j) {
+        if (apexes[j] == targets[i]) twin = previous(fan[j]);
+        if (j < i && targets[j] == targets[i]) report_repeated(fan[i]);
+      }
+      twins_[fan[i].index()] = twin;
+    }
+  };
+  const auto link_large_fan = [&](VertexId v) {
+    for (const HalfedgeId h : outgoing(v)) {
+      if (find_halfedge(v, target(h)) != h) report_repeated(h);
+      twins_[h.index()] = find_halfedge(target(h), v);
+    }
+  };
+  for_each_block(points_.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    std::size_t on_rim = 0;
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::span<const HalfedgeId> fan = outgoing(VertexId{v});
+      if (fan.size() <= kFewEdges) {
+        link_small_fan(fan);
+      } else {
+        link_large_fan(VertexId{v});
+      }
+      for (const HalfedgeId h : fan) on_rim += twins_[h.index()].valid() ? 0 : 1;
+    }
+    rim += on_rim;
+  });
+  if (repeated != HalfedgeId::kInvalid) {
+    const HalfedgeId bad{repeated.load()};
+    throw Error(ErrorCode::InvalidTin, "two triangles lie on the same side of edge " +
+                                           std::to_string(origin(bad).value()) + ", " +
+                                           std::to_string(target(bad).value()));
   }
   edge_count_ = (count + rim) / 2;
 }
