@@ -73,6 +73,14 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   LabellingConfig config;
   config.order = parse_order(arguments.order);
   config.definition = parse_definition(arguments.definition);
+  const bool overlapping =
+      config.definition == OrderDefinition::Sees3vtx || config.definition == OrderDefinition::EmptyQuad;
+  if (overlapping && config.order > 0) {
+    throw Error(ErrorCode::Unsupported,
+                "--definition " + arguments.definition +
+                    ": its quadrilaterals overlap, and optimising over them is not "
+                    "available; take sees-opp or a stronger definition, or --order 0");
+  }
   config.criteria = parse_criteria(arguments.optimize);
   if (arguments.effort > 0) config.effort = arguments.effort;
   return config;
