@@ -53,7 +53,7 @@ void Canvas::ring(Point2 centre, double radius, Colour colour, double line_width
   cairo_stroke(cairo());
 }
 
-void Canvas::set_font(double size, Weight weight) {
+void Canvas::set_font(double size, Weight weight) const {
   cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          weight == Weight::Bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo(), size);

@@ -41,7 +41,7 @@ class Canvas {
   void disc(Point2 centre, double radius, Colour colour);
   void ring(Point2 centre, double radius, Colour colour, double line_width);
 
-  void set_font(double size, Weight weight);
+  void set_font(double size, Weight weight) const;
   [[nodiscard]] double text_width(const std::string& text) const;
   /// Puts text with its left end at x and its baseline at y.
   void text(double x, double y, const std::string& text, Colour colour);

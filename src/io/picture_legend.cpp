@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 namespace thalweg {
 
@@ -20,15 +22,54 @@ std::string count_text(std::size_t count) {
   return format_number(static_cast<double>(count), 1);
 }
 
+void add_mesh_rows(std::vector<LegendRow>& rows, const PictureScene& scene) {
+  const MapCounts counts = count_things(scene);
+  rows.push_back({LegendSymbol::None, "Vertices", count_text(scene.tin.vertex_count())});
+  rows.push_back({LegendSymbol::Outline, "Triangles", count_text(scene.tin.triangle_count())});
+  const std::span<const LineStyle> styles = line_styles();
+  for (std::size_t i = styles.size(); i-- > 0;) {
+    if (counts.edges[i] > 0)
+      rows.push_back({LegendSymbol::Line, styles[i].label, count_text(counts.edges[i]), styles[i]});
+  }
+}
+
 }  // namespace
 
-Legend::Legend(Canvas& canvas, const PictureScene& scene, const ReliefStyle& style, double font_size)
-    : style_(style), font_size_(font_size) {
-  list_rows(scene);
-  list_ticks(scene);
+std::vector<LegendRow> legend_rows(const PictureScene& scene) {
+  std::vector<LegendRow> rows;
+  add_mesh_rows(rows, scene);
+  const MapCounts counts = count_things(scene);
+  if (!scene.flipped.empty())
+    rows.push_back({LegendSymbol::Flipped, "Flipped diagonals", count_text(scene.flipped.size())});
+  if (!scene.pits_before.empty())
+    rows.push_back({LegendSymbol::PitBefore, "Pits before", count_text(counts.pits_before)});
+  if (!scene.pits_after.empty())
+    rows.push_back({LegendSymbol::PitAfter, "Pits after", count_text(counts.pits_after)});
+  return rows;
+}
+
+std::vector<LegendRow> legend_rows(const ComparisonScene& scene) {
+  std::vector<LegendRow> rows;
+  add_mesh_rows(rows, scene.after);
+  const MapCounts before = count_things(scene.before);
+  const MapCounts after = count_things(scene.after);
+  rows.push_back({LegendSymbol::Flipped, "Flipped diagonals", count_text(scene.after.flipped.size())});
+  rows.push_back({LegendSymbol::PitBefore, "Pits removed", count_text(before.pits_before)});
+  rows.push_back({LegendSymbol::PitAfter, "Pits left", count_text(after.pits_after)});
+  rows.push_back({LegendSymbol::PitNew, "New pits", count_text(after.pits_new)});
+  return rows;
+}
+
+Legend::Legend(std::vector<LegendRow> rows, double vertical_metres_per_unit, const ReliefStyle& style,
+               double font_size)
+    : style_(style), font_size_(font_size), rows_(std::move(rows)) {
+  list_ticks(vertical_metres_per_unit);
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> sheet(
+      cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1), &cairo_surface_destroy);
+  Canvas canvas(sheet.get());  // only to measure texts
   canvas.set_font(font_size, Weight::Normal);
   double labels = 0, counts = 0, heights = 0;
-  for (const Row& row : rows_) {
+  for (const LegendRow& row : rows_) {
     labels = std::max(labels, canvas.text_width(row.label));
     counts = std::max(counts, canvas.text_width(row.count));
   }
@@ -39,27 +80,10 @@ Legend::Legend(Canvas& canvas, const PictureScene& scene, const ReliefStyle& sty
                      symbol_width() + kGap * font_size + heights});
 }
 
-void Legend::list_rows(const PictureScene& scene) {
-  const MapCounts counts = count_things(scene);
-  rows_.push_back({Symbol::None, "Vertices", count_text(scene.tin.vertex_count())});
-  rows_.push_back({Symbol::Outline, "Triangles", count_text(scene.tin.triangle_count())});
-  const std::span<const LineStyle> styles = line_styles();
-  for (std::size_t i = styles.size(); i-- > 0;) {
-    if (counts.edges[i] > 0)
-      rows_.push_back({Symbol::Line, styles[i].label, count_text(counts.edges[i]), styles[i]});
-  }
-  if (!scene.flipped.empty())
-    rows_.push_back({Symbol::Flipped, "Flipped diagonals", count_text(scene.flipped.size())});
-  if (!scene.pits_before.empty())
-    rows_.push_back({Symbol::PitBefore, "Pits before", count_text(counts.pits_before)});
-  if (!scene.pits_after.empty())
-    rows_.push_back({Symbol::PitAfter, "Pits after", count_text(counts.pits_after)});
-}
-
-void Legend::list_ticks(const PictureScene& scene) {
+void Legend::list_ticks(double vertical_metres_per_unit) {
   constexpr double kMostTicks = 6;
-  const double low = style_.z_low() * scene.vertical_metres_per_unit;
-  const double high = style_.z_high() * scene.vertical_metres_per_unit;
+  const double low = style_.z_low() * vertical_metres_per_unit;
+  const double high = style_.z_high() * vertical_metres_per_unit;
   if (!(high > low)) {
     ticks_.push_back({0.5, format_number(low, 0.01)});
     return;
@@ -83,7 +107,7 @@ void Legend::draw(Canvas& canvas, double left, double top) const {
   draw_ramp(canvas, left, top + 1.6 * font_size_);
   canvas.set_font(font_size_, Weight::Normal);
   double middle = top + 1.6 * font_size_ + ramp_height() + 1.4 * font_size_ + row_height() / 2;
-  for (const Row& row : rows_) {
+  for (const LegendRow& row : rows_) {
     const double baseline = middle + 0.35 * font_size_;
     draw_symbol(canvas, row, left, middle);
     canvas.text(left + symbol_width() + kGap * font_size_, baseline, row.label, MapColours::kInk);
@@ -112,20 +136,20 @@ void Legend::draw_ramp(Canvas& canvas, double left, double top) const {
   }
 }
 
-void Legend::draw_symbol(Canvas& canvas, const Row& row, double left, double middle) const {
+void Legend::draw_symbol(Canvas& canvas, const LegendRow& row, double left, double middle) const {
   const double unit = font_size_ / 10;
   const double right = left + symbol_width() * 0.85;
   const double centre = (left + right) / 2;
   switch (row.symbol) {
-    case Symbol::None:
+    case LegendSymbol::None:
       return;
-    case Symbol::Line:
+    case LegendSymbol::Line:
       canvas.stroke_line({left, middle}, {right, middle}, row.line.colour, 1.6 * row.line.width * unit);
       return;
-    case Symbol::Flipped:
+    case LegendSymbol::Flipped:
       canvas.stroke_line({left, middle}, {right, middle}, MapColours::kFlipped, 1.1 * unit);
       return;
-    case Symbol::Outline: {
+    case LegendSymbol::Outline: {
       const double half = 0.55 * font_size_;
       const std::array<Point2, 4> corners = {{{centre - 1.3 * half, middle + 0.9 * half},
                                               {centre + 1.3 * half, middle + 0.9 * half},
@@ -134,11 +158,14 @@ void Legend::draw_symbol(Canvas& canvas, const Row& row, double left, double mid
       canvas.stroke_path(corners, MapColours::kTriangle.with_alpha(0.7), 0.7 * unit);
       return;
     }
-    case Symbol::PitBefore:
+    case LegendSymbol::PitBefore:
       draw_pit_before(canvas, {centre, middle}, 3.6 * unit);
       return;
-    case Symbol::PitAfter:
+    case LegendSymbol::PitAfter:
       draw_pit_after(canvas, {centre, middle}, 3.6 * unit);
+      return;
+    case LegendSymbol::PitNew:
+      draw_pit_new(canvas, {centre, middle}, 3.6 * unit);
       return;
   }
 }

@@ -9,32 +9,38 @@
 
 namespace thalweg {
 
+enum class LegendSymbol : std::uint8_t { None, Line, Flipped, Outline, PitBefore, PitAfter, PitNew };
+
+struct LegendRow {
+  LegendSymbol symbol = LegendSymbol::None;
+  std::string label;
+  std::string count;
+  LineStyle line = {};
+};
+
+/// The rows of a map, of two maps side by side.
+std::vector<LegendRow> legend_rows(const PictureScene& scene);
+std::vector<LegendRow> legend_rows(const ComparisonScene& scene);
+
 /// A column of the ramp of heights and of rows with symbol, label and count. Knows its size before it is
 /// drawn.
 class Legend {
  public:
-  /// `canvas` is only measured. Sizes follow `font_size`.
-  Legend(Canvas& canvas, const PictureScene& scene, const ReliefStyle& style, double font_size);
+  /// Sizes follow `font_size`.
+  Legend(std::vector<LegendRow> rows, double vertical_metres_per_unit, const ReliefStyle& style,
+         double font_size);
   [[nodiscard]] double width() const { return width_; }
   [[nodiscard]] double height() const;
   void draw(Canvas& canvas, double left, double top) const;
 
  private:
-  enum class Symbol : std::uint8_t { None, Line, Flipped, Outline, PitBefore, PitAfter };
-  struct Row {
-    Symbol symbol = Symbol::None;
-    std::string label;
-    std::string count;
-    LineStyle line = {};
-  };
   struct Tick {
     double position;  ///< 0 at the low end of the ramp, 1 at the high end
     std::string label;
   };
-  void list_rows(const PictureScene& scene);
-  void list_ticks(const PictureScene& scene);
+  void list_ticks(double vertical_metres_per_unit);
   void draw_ramp(Canvas& canvas, double left, double top) const;
-  void draw_symbol(Canvas& canvas, const Row& row, double left, double middle) const;
+  void draw_symbol(Canvas& canvas, const LegendRow& row, double left, double middle) const;
   [[nodiscard]] double row_height() const { return 1.65 * font_size_; }
   [[nodiscard]] double symbol_width() const { return 2.4 * font_size_; }
   [[nodiscard]] double ramp_height() const { return 13 * font_size_; }
@@ -42,7 +48,7 @@ class Legend {
   const ReliefStyle& style_;
   double font_size_;
   double width_ = 0;
-  std::vector<Row> rows_;
+  std::vector<LegendRow> rows_;
   std::vector<Tick> ticks_;
 };
 

@@ -132,7 +132,8 @@ void draw_pits(Canvas& canvas, const PictureScene& scene, const MapFrame& frame,
                Progress& progress) {
   constexpr double kShareOfSpace = 0.22;
   const MapCounts counts = count_things(scene);
-  const double most = static_cast<double>(std::max({counts.pits_before, counts.pits_after, std::size_t{1}}));
+  const double most =
+      static_cast<double>(std::max({counts.pits_before, counts.pits_after, counts.pits_new, std::size_t{1}}));
   const double space = std::sqrt(frame.width() * frame.height() / most);
   const double radius = std::clamp(kShareOfSpace * space, 1.3 * unit, 3.6 * unit);
   for (std::size_t v = 0; v < scene.tin.vertex_count(); ++v) {
@@ -140,6 +141,7 @@ void draw_pits(Canvas& canvas, const PictureScene& scene, const MapFrame& frame,
     const Point2 p = frame.to_page(scene.tin.points()[v]);
     if (!scene.pits_before.empty() && scene.pits_before[v] != 0) draw_pit_before(canvas, p, radius);
     if (!scene.pits_after.empty() && scene.pits_after[v] != 0) draw_pit_after(canvas, p, radius);
+    if (!scene.pits_new.empty() && scene.pits_new[v] != 0) draw_pit_new(canvas, p, radius);
   }
 }
 
@@ -161,6 +163,7 @@ MapCounts count_things(const PictureScene& scene) {
   };
   counts.pits_before = marked(scene.pits_before);
   counts.pits_after = marked(scene.pits_after);
+  counts.pits_new = marked(scene.pits_new);
   return counts;
 }
 
@@ -217,6 +220,11 @@ void draw_pit_before(Canvas& canvas, Point2 centre, double radius) {
 
 void draw_pit_after(Canvas& canvas, Point2 centre, double radius) {
   canvas.disc(centre, radius, MapColours::kPitFill);
+  canvas.ring(centre, radius, MapColours::kPitInk, 0.35 * radius);
+}
+
+void draw_pit_new(Canvas& canvas, Point2 centre, double radius) {
+  canvas.disc(centre, radius, MapColours::kPitNew);
   canvas.ring(centre, radius, MapColours::kPitInk, 0.35 * radius);
 }
 

@@ -27,6 +27,7 @@ struct MapCounts {
   std::array<std::size_t, 6> edges{};  ///< constraint edges, as in `line_styles`
   std::size_t pits_before = 0;
   std::size_t pits_after = 0;
+  std::size_t pits_new = 0;
 };
 MapCounts count_things(const PictureScene& scene);
 
@@ -37,6 +38,7 @@ struct MapColours {
   static constexpr Colour kQuietInk = rgb(0x5c5c5c);
   static constexpr Colour kTriangle = rgb(0x2f2f2f);
   static constexpr Colour kFlipped = rgb(0xc2006b);
+  static constexpr Colour kPitNew = rgb(0xe03c1f);
   static constexpr Colour kPitFill = rgb(0xffd92f);
   static constexpr Colour kPitInk = rgb(0x1f1f1f);
 };
@@ -55,5 +57,6 @@ void draw_lines_and_pits(Canvas& canvas, const PictureScene& scene, const MapFra
 /// Symbols of the legend, as on the map.
 void draw_pit_before(Canvas& canvas, Point2 centre, double radius);
 void draw_pit_after(Canvas& canvas, Point2 centre, double radius);
+void draw_pit_new(Canvas& canvas, Point2 centre, double radius);
 
 }  // namespace thalweg

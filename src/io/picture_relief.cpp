@@ -180,7 +180,7 @@ class Painter {
 
   [[nodiscard]] ReliefImage averaged() const {
     ReliefImage image{columns_ / kSamples, rows_ / kSamples, {}};
-    image.pixels.reserve(samples_.size() / (kSamples * kSamples));
+    image.pixels.reserve(samples_.size() / kSamples / kSamples);
     for (int row = image.height - 1; row >= 0; --row) {
       for (int column = 0; column < image.width; ++column) image.pixels.push_back(average(row, column));
     }

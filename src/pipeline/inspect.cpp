@@ -1,6 +1,6 @@
 // What a TIN file is: read, projected where its CRS is geographic, measured, checked.
 #include "pipeline/digest.hpp"
-#include "pipeline/plane.hpp"
+#include "pipeline/loaded_tin.hpp"
 #include "pipeline/surface.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -23,15 +23,13 @@ namespace thalweg {
 
 namespace {
 
-/// A TIN file in its plane.
-struct LoadedTin {
-  Tin tin;
-  CrsInfo crs;
-  Plane plane;
-  std::vector<Point2> written;  ///< empty: the plane's own
-};
+nlohmann::ordered_json histogram_json(std::span<const std::size_t> bins) {
+  return nlohmann::ordered_json(std::vector<std::size_t>(bins.begin(), bins.end()));
+}
 
-LoadedTin load(const std::string& path, Progress& progress) {
+}  // namespace
+
+LoadedTin load_tin(const std::string& path, Progress& progress) {
   TinFile file = read_tin(path, progress);
   CrsInfo crs = describe_crs(file.crs);
   Plane plane(crs, file.points);
@@ -42,15 +40,9 @@ LoadedTin load(const std::string& path, Progress& progress) {
   return loaded;
 }
 
-nlohmann::ordered_json histogram_json(std::span<const std::size_t> bins) {
-  return nlohmann::ordered_json(std::vector<std::size_t>(bins.begin(), bins.end()));
-}
-
-}  // namespace
-
 TinInfo inspect_tin(const std::string& path, Progress& progress) {
   progress.start_phase("read");
-  const LoadedTin loaded = load(path, progress);
+  const LoadedTin loaded = load_tin(path, progress);
   progress.start_phase("measure");
   TinInfo info;
   info.path = path;
@@ -138,7 +130,7 @@ void view_tin(const ViewConfig& config, Progress& progress) {
   PendingOutputs outputs;
   const std::string path = outputs.add(config.output, config.overwrite ? Overwrite::Yes : Overwrite::No);
   progress.start_phase("read");
-  const LoadedTin loaded = load(config.input, progress);
+  const LoadedTin loaded = load_tin(config.input, progress);
   std::vector<std::uint8_t> pits = find_pits(loaded.tin).is_pit;
   std::replace(pits.begin(), pits.end(), std::uint8_t{2}, std::uint8_t{0});
   progress.start_phase("draw");

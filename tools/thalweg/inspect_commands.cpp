@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace thalweg::cli {
@@ -31,16 +32,30 @@ void add_info_command(CLI::App& app) {
 void add_view_command(CLI::App& app) {
   struct Arguments {
     ViewConfig config;
+    std::string before;
+    std::optional<int> width_px;
     Common common;
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("view", "a picture of a TIN");
   command->add_option("TIN", a->config.input, "TIN file")->required();
   command->add_option("OUTPUT", a->config.output, "picture: .png, .svg or .pdf")->required();
-  command->add_option("--width", a->config.width_px, "width in pixels")->check(CLI::Range(200, 20000));
+  command->add_option("--compare", a->before,
+                      "another TIN of the same vertices: both side by side, and what changed from it to TIN");
+  command->add_option("--width", a->width_px, "width in pixels (default: 1600, to compare 2400)")
+      ->check(CLI::Range(400, 8000));
   command->add_flag("--overwrite", a->config.overwrite, "replace an existing output");
   add_common_options(*command, a->common);
-  command->callback([a] { view_tin(a->config, progress_of(a->common)); });
+  command->callback([a] {
+    if (a->before.empty()) {
+      if (a->width_px) a->config.width_px = *a->width_px;
+      view_tin(a->config, progress_of(a->common));
+      return;
+    }
+    CompareConfig config{a->before, a->config.input, a->config.output, a->config.overwrite};
+    if (a->width_px) config.width_px = *a->width_px;
+    view_comparison(config, progress_of(a->common));
+  });
 }
 
 namespace {

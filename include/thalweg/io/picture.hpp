@@ -20,6 +20,7 @@ struct PictureScene {
   double vertical_metres_per_unit = 1;
   std::span<const std::uint8_t> pits_before = {};  ///< one a vertex: interior pit of the Delaunay TIN
   std::span<const std::uint8_t> pits_after = {};   ///< one a vertex: interior pit of this TIN
+  std::span<const std::uint8_t> pits_new = {};     ///< one a vertex: a pit that another TIN does not have
   std::span<const std::array<VertexId, 2>> flipped =
       {};  ///< edges of this TIN that the Delaunay TIN does not have
   std::string title = {};
@@ -34,6 +35,18 @@ struct PictureScene {
 /// no triangle; Error{WriteFailed}; Error{Cancelled}.
 void draw_picture(const std::string& path, const std::string& extension, const PictureScene& scene,
                   Progress& progress);
+
+/// Two TINs of the same vertices. The left map marks in `flipped` what the right one does not have, and the
+/// other way round; `pits_before` of the left are the pits that are gone, `pits_after` of both those that are
+/// left, `pits_new` of the right those that came.
+struct ComparisonScene {
+  PictureScene before;  ///< its title stands over the left map
+  PictureScene after;   ///< its width is that of the whole picture
+};
+
+/// Draws both side by side, in the same colours, light and scale, with one legend. Otherwise as draw_picture.
+void draw_comparison(const std::string& path, const std::string& extension, const ComparisonScene& scene,
+                     Progress& progress);
 
 /// The formats of pictures.
 std::span<const FormatInfo> picture_formats();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a TIN file is, and a picture of it.
+/// What a TIN file is, a picture of it, and one of what changed.
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/geometry/point.hpp>
@@ -38,5 +38,17 @@ struct ViewConfig {
 
 /// Draws a TIN file. Throws: as inspect_tin, and Error{OutputExists, WriteFailed, Usage}.
 void view_tin(const ViewConfig& config, Progress& progress);
+
+struct CompareConfig {
+  std::string before;  ///< the TIN of the left map
+  std::string after;   ///< the TIN of the right map; the same vertices, to the last bit
+  std::string output;  ///< .png, .svg, .pdf
+  bool overwrite = false;
+  int width_px = 2400;
+};
+
+/// Draws two TINs of the same vertices side by side: edges that changed, pits removed, left and new.
+/// Throws: as view_tin, and Error{Usage} naming the first vertex that differs.
+void view_comparison(const CompareConfig& config, Progress& progress);
 
 }  // namespace thalweg
