@@ -1,16 +1,18 @@
 // Hilbert and insertion orders.
 //
 // 1. A point's cell in a 2^28 x 2^28 grid over the bounding box; the curve's key of a cell comes from the two
-//    bits a level, of which `flip` and `swap` say how the curve runs in the quarter at hand.
-// 2. Rounds (Amenta, Choi, Rote, Incremental constructions con BRIO, 2003): a mixed index decides a point's
+//    bits a level, of which `flip` and `swap` say how the curve runs in the quarter at hand. A table does
+//    four levels at once.
+// 2. Sort by the key's upper half, digit by digit, then those that share it by the rest and the index.
+// 3. Rounds (Amenta, Choi, Rote, Incremental constructions con BRIO, 2003): a mixed index decides a vertex'
 //    round, so a round is a random sample as far as the pattern of the input is concerned.
-// 3. Sort by (round, key, index).
 #include "spatial_order.hpp"
 
-#include <base/parallel.hpp>
-#include <tbb/parallel_sort.h>
+#include "base/large_pages.hpp"
+#include "base/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace thalweg {
@@ -18,8 +20,48 @@ namespace thalweg {
 namespace {
 
 constexpr unsigned kLevels = 28;
-constexpr unsigned kRoundBits = 64 - 2 * kLevels;
+constexpr unsigned kLevelsAtOnce = 4;
 constexpr std::size_t kBlock = 1 << 14;
+
+/// What four levels of the curve give, by (flip, swap, four bits of x, four bits of y): eight bits of the
+/// key, above them the new flip and swap.
+using CurveTable = std::array<std::uint16_t, 1 << (2 + 2 * kLevelsAtOnce)>;
+
+constexpr CurveTable make_curve() {
+  CurveTable table{};
+  for (std::uint32_t entry = 0; entry < table.size(); ++entry) {
+    std::uint32_t flip = entry >> 9U & 1U;
+    std::uint32_t swap = entry >> 8U & 1U;
+    std::uint32_t key = 0;
+    for (unsigned level = kLevelsAtOnce; level-- > 0;) {
+      std::uint32_t a = entry >> (kLevelsAtOnce + level) & 1U;
+      std::uint32_t b = entry >> level & 1U;
+      const std::uint32_t change = ((a ^ b) & swap) ^ flip;
+      a ^= change;
+      b ^= change;
+      key = key << 2U | ((3 * a) ^ b);
+      flip ^= a & (b ^ 1U);
+      swap ^= b ^ 1U;
+    }
+    table[entry] = static_cast<std::uint16_t>(flip << 9U | swap << 8U | key);
+  }
+  return table;
+}
+
+constexpr CurveTable kCurve = make_curve();
+
+std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
+  constexpr std::uint32_t kDigit = (1U << kLevelsAtOnce) - 1;
+  std::uint64_t key = 0;
+  std::uint32_t state = 0;
+  for (unsigned level = kLevels; level > 0;) {
+    level -= kLevelsAtOnce;
+    const std::uint32_t entry = kCurve[state << 8U | (x >> level & kDigit) << 4U | (y >> level & kDigit)];
+    key = key << 8U | (entry & 0xffU);
+    state = entry >> 8U;
+  }
+  return key;
+}
 
 struct Keyed {
   std::uint64_t key;
@@ -29,66 +71,71 @@ struct Keyed {
   }
 };
 
-std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
-  std::uint64_t key = 0;
-  std::uint32_t flip = 0;
-  std::uint32_t swap = 0;
-  for (unsigned level = kLevels; level-- > 0;) {
-    std::uint32_t a = (x >> level) & 1U;
-    std::uint32_t b = (y >> level) & 1U;
-    const std::uint32_t change = ((a ^ b) & swap) ^ flip;
-    a ^= change;
-    b ^= change;
-    key = key << 2U | ((3 * a) ^ b);
-    flip ^= a & (b ^ 1U);
-    swap ^= b ^ 1U;
+// By the upper 33 of the 56 bits, then what is equal in them by the rest.
+void sort_by_key(LargeVector<Keyed>& keyed, const Progress& progress) {
+  constexpr unsigned kDigitBits = 11, kFirstBit = 23, kDigits = 3;
+  constexpr std::size_t kBuckets = 1U << kDigitBits;
+  LargeVector<Keyed> other(keyed.size());
+  std::array<std::array<std::size_t, kBuckets>, kDigits> start{};
+  const auto digit_of = [](std::uint64_t key, std::size_t digit) {
+    return key >> (kFirstBit + digit * kDigitBits) & (kBuckets - 1);
+  };
+  for (const Keyed& k : keyed) {
+    for (std::size_t digit = 0; digit < kDigits; ++digit) ++start[digit][digit_of(k.key, digit)];
   }
-  return key;
+  for (std::size_t digit = 0; digit < kDigits; ++digit) {
+    progress.check();
+    std::size_t next = 0;
+    for (std::size_t& bucket : start[digit]) next += std::exchange(bucket, next);
+    for (const Keyed& k : keyed) other[start[digit][digit_of(k.key, digit)]++] = k;
+    std::swap(keyed, other);
+  }
+  for (std::size_t begin = 0; begin < keyed.size();) {
+    std::size_t end = begin + 1;
+    while (end < keyed.size() && keyed[end].key >> kFirstBit == keyed[begin].key >> kFirstBit) ++end;
+    if (end - begin > 1) std::sort(keyed.begin() + begin, keyed.begin() + end);
+    begin = end;
+  }
 }
 
-// splitmix64: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014.
-std::uint64_t mix(std::uint64_t value) {
-  value += 0x9e3779b97f4a7c15U;
-  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
-  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
-  return value ^ (value >> 31U);
-}
+}  // namespace
 
-std::uint64_t insertion_round(std::size_t index) {
-  constexpr std::uint64_t kLast = (1U << kRoundBits) - 1;
-  return kLast - static_cast<std::uint64_t>(std::countr_zero(mix(index) | 1ULL << 62U)) / 2;
-}
-
-template <class Round>
-std::vector<std::uint32_t> ordered(std::span<const Point2> points, const Progress& progress,
-                                   const Round& round) {
+std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
   const Box2 box = bounding_box(points);
   const double side = std::max(box.width(), box.height());
   const double scale = side > 0 ? (1U << kLevels) / side : 0;
   const auto cell = [scale](double offset) {
     return static_cast<std::uint32_t>(std::min(offset * scale, double{(1U << kLevels) - 1}));
   };
-  std::vector<Keyed> keyed(points.size());
+  LargeVector<Keyed> keyed(points.size());
   for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint64_t key = hilbert_key(cell(points[i].x - box.x_min), cell(points[i].y - box.y_min));
-      keyed[i] = {round(i) << (2 * kLevels) | key, static_cast<std::uint32_t>(i)};
+      keyed[i] = {hilbert_key(cell(points[i].x - box.x_min), cell(points[i].y - box.y_min)),
+                  static_cast<std::uint32_t>(i)};
     }
   });
-  tbb::parallel_sort(keyed.begin(), keyed.end());
+  sort_by_key(keyed, progress);
   std::vector<std::uint32_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
   return order;
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
-  return ordered(points, progress, [](std::size_t) { return std::uint64_t{0}; });
+std::size_t insertion_round(std::uint32_t index) {
+  // splitmix64: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014.
+  std::uint64_t value = index + 0x9e3779b97f4a7c15U;
+  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
+  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
+  value ^= value >> 31U;
+  const auto quarters = static_cast<std::size_t>(std::countr_zero(value | 1ULL << 62U)) / 2;
+  return kInsertionRounds - 1 - std::min(quarters, kInsertionRounds - 1);
 }
 
 std::vector<std::uint32_t> insertion_order(std::span<const Point2> points, const Progress& progress) {
-  return ordered(points, progress, insertion_round);
+  const std::vector<std::uint32_t> order = hilbert_order(points, progress);
+  const auto count = static_cast<std::uint32_t>(order.size());
+  std::vector<std::uint32_t> rounds = in_rounds(count, [](std::uint32_t) { return true; });
+  for (std::uint32_t& i : rounds) i = order[i];
+  return rounds;
 }
 
 }  // namespace thalweg

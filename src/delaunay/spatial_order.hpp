@@ -5,6 +5,8 @@
 #include <thalweg/base/progress.hpp>
 #include <thalweg/geometry/point.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,9 +16,26 @@ namespace thalweg {
 /// Indices of the points along a Hilbert curve through their bounding box.
 std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress);
 
-/// Indices of the points in rounds, each along the Hilbert curve: the last round holds three quarters of
-/// them, the one before three quarters of the rest, and so on. Incremental triangulation in this order takes
-/// few steps to locate a point and, expected, few flips, whatever the points' pattern.
+/// Round of the vertex with that index along the curve: the last one holds three quarters of all vertices,
+/// the one before three quarters of the rest, and so on. Incremental triangulation round by round takes few
+/// steps to locate a point and, expected, few changes, whatever the points' pattern.
+inline constexpr std::size_t kInsertionRounds = 12;
+std::size_t insertion_round(std::uint32_t index);
+
+/// The indices below `count` for which `belongs`, round by round, within a round ascending.
+template <class Belongs>
+std::vector<std::uint32_t> in_rounds(std::uint32_t count, const Belongs& belongs) {
+  std::array<std::size_t, kInsertionRounds + 1> start{};
+  for (std::uint32_t i = 0; i < count; ++i) start[insertion_round(i) + 1] += belongs(i) ? 1 : 0;
+  for (std::size_t round = 0; round < kInsertionRounds; ++round) start[round + 1] += start[round];
+  std::vector<std::uint32_t> indices(start[kInsertionRounds]);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (belongs(i)) indices[start[insertion_round(i)]++] = i;
+  }
+  return indices;
+}
+
+/// Indices of the points round by round, each along the Hilbert curve.
 std::vector<std::uint32_t> insertion_order(std::span<const Point2> points, const Progress& progress);
 
 }  // namespace thalweg

@@ -1,6 +1,9 @@
 // The exact stage of the predicates, behind the inline filters.
 //
-// 1. Orientation and in-circle: CGAL's filtered kernel on the same doubles.
+// 1. Orientation and in-circle: differences of coordinates that are near each other are exact doubles. Where
+//    all are, and where they are integers of at most 61 bits once scaled by one power of two (lattices, and
+//    points close together at large offsets), the determinant is computed in integers of 128 and 256 bits.
+//    Everything else: CGAL's filtered kernel on the same doubles.
 // 2. The tie rule: sort the four points; the largest that is one of a, b, c, and whose replacement by d
 // leaves
 //    a proper triangle, decides by that triangle's orientation; if d comes first, it is outside.
@@ -14,6 +17,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 
 namespace thalweg {
@@ -57,20 +62,124 @@ std::optional<bool> passes_through_disc_filtered(Point2 a, Point2 b, Point2 c, P
   return std::nullopt;
 }
 
-}  // namespace
-
-namespace detail {
-
-int orientation_exact(Point2 a, Point2 b, Point2 c) {
-  return static_cast<int>(Kernel().orientation_2_object()(to_cgal(a), to_cgal(b), to_cgal(c)));
+/// Whether a - b is exact: what rounding took off, by Knuth's two-sum, is zero.
+bool exact_difference(double a, double b, double difference) {
+  const double b_part = a - difference;
+  const double a_part = difference + b_part;
+  return a - a_part == 0 && b_part - b == 0;
 }
 
-int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
-  return static_cast<int>(
-      Kernel().side_of_oriented_circle_2_object()(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+/// Differences of points as integers in one common unit, if they are such exactly.
+template <std::size_t Count>
+std::optional<std::array<std::int64_t, Count>> integer_differences(
+    const std::array<Point2, Count / 2>& points, Point2 origin) {
+  constexpr int kBits = 61;
+  std::array<double, Count> exact;
+  double largest = 0;
+  for (std::size_t i = 0; i < Count / 2; ++i) {
+    exact[2 * i] = points[i].x - origin.x;
+    exact[2 * i + 1] = points[i].y - origin.y;
+    if (!exact_difference(points[i].x, origin.x, exact[2 * i]) ||
+        !exact_difference(points[i].y, origin.y, exact[2 * i + 1])) {
+      return std::nullopt;
+    }
+    largest = std::max({largest, std::abs(exact[2 * i]), std::abs(exact[2 * i + 1])});
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  if (exponent < -900 || exponent > 900) return std::nullopt;
+  const double scale = std::ldexp(1.0, kBits - exponent);
+  std::array<std::int64_t, Count> integers;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const double scaled = exact[i] * scale;
+    integers[i] = static_cast<std::int64_t>(scaled);
+    if (static_cast<double>(integers[i]) != scaled) return std::nullopt;
+  }
+  return integers;
 }
 
-int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpedantic"
+using Int128 = __int128;
+using Unsigned128 = unsigned __int128;
+#pragma GCC diagnostic pop
+
+/// A signed integer of 256 bits, as two's complement.
+struct Int256 {
+  Unsigned128 high = 0;
+  Unsigned128 low = 0;
+
+  void add(const Int256& other) {
+    low += other.low;
+    high += other.high + (low < other.low ? 1 : 0);
+  }
+  void negate() {
+    low = ~low + 1;
+    high = ~high + (low == 0 ? 1 : 0);
+  }
+  [[nodiscard]] int sign() const {
+    if (static_cast<Int128>(high) < 0) return -1;
+    return high == 0 && low == 0 ? 0 : 1;
+  }
+};
+
+Int256 product(Int128 a, Int128 b) {
+  const bool negative = (a < 0) != (b < 0);
+  const Unsigned128 x = a < 0 ? -static_cast<Unsigned128>(a) : static_cast<Unsigned128>(a);
+  const Unsigned128 y = b < 0 ? -static_cast<Unsigned128>(b) : static_cast<Unsigned128>(b);
+  const auto low = [](Unsigned128 value) { return static_cast<std::uint64_t>(value); };
+  const auto high = [](Unsigned128 value) { return static_cast<std::uint64_t>(value >> 64U); };
+  const auto multiply = [](std::uint64_t p, std::uint64_t q) { return static_cast<Unsigned128>(p) * q; };
+  const Unsigned128 low_low = multiply(low(x), low(y));
+  const Unsigned128 low_high = multiply(low(x), high(y));
+  const Unsigned128 high_low = multiply(high(x), low(y));
+  const Unsigned128 middle = static_cast<Unsigned128>(high(low_low)) + low(low_high) + low(high_low);
+  Int256 result;
+  result.low = middle << 64U | low(low_low);
+  result.high = multiply(high(x), high(y)) + high(low_high) + high(high_low) + high(middle);
+  if (negative) result.negate();
+  return result;
+}
+
+std::optional<int> orientation_in_integers(Point2 a, Point2 b, Point2 c) {
+  const auto d = integer_differences<4>({a, b}, c);
+  if (!d) return std::nullopt;
+  const auto [ax, ay, bx, by] = *d;
+  const Int128 left = Int128{ax} * by;
+  const Int128 right = Int128{ay} * bx;
+  return left == right ? 0 : left > right ? 1 : -1;
+}
+
+// Differences have 61 bits, minors and squares at most 124, the determinant at most 250.
+std::optional<int> in_circle_in_integers(Point2 a, Point2 b, Point2 c, Point2 d) {
+  const auto differences = integer_differences<6>({a, b, c}, d);
+  if (!differences) return std::nullopt;
+  const auto [ax, ay, bx, by, cx, cy] = *differences;
+  const auto lift = [](std::int64_t x, std::int64_t y) { return Int128{x} * x + Int128{y} * y; };
+  const auto minor = [](std::int64_t px, std::int64_t py, std::int64_t qx, std::int64_t qy) {
+    return Int128{px} * qy - Int128{qx} * py;
+  };
+  Int256 determinant = product(lift(ax, ay), minor(bx, by, cx, cy));
+  determinant.add(product(lift(bx, by), minor(cx, cy, ax, ay)));
+  determinant.add(product(lift(cx, cy), minor(ax, ay, bx, by)));
+  return determinant.sign();
+}
+
+/// If a, b, c and d are the corners of a rectangle along the axes, as in every cell of a raster: the one of
+/// a, b, c that is opposite to d.
+std::optional<Point2> opposite_in_rectangle(Point2 a, Point2 b, Point2 c, Point2 d) {
+  const auto opposite = [d](Point2 o, Point2 p, Point2 q) {
+    return (p.x == d.x && q.y == d.y && p.y == o.y && q.x == o.x) ||
+           (q.x == d.x && p.y == d.y && q.y == o.y && p.x == o.x);
+  };
+  if (opposite(a, b, c)) return a;
+  if (opposite(b, c, a)) return b;
+  if (opposite(c, a, b)) return c;
+  return std::nullopt;
+}
+
+// Some three of the points are collinear, the largest among them: then the next largest decides.
+int break_tie_of_collinear(Point2 a, Point2 b, Point2 c, Point2 d) {
   std::array<Point2, 4> order{a, b, c, d};
   std::sort(order.begin(), order.end());
   for (std::size_t i = 3; i > 0; --i) {
@@ -87,6 +196,41 @@ int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {
     if (sign != 0) return sign;
   }
   return -1;
+}
+
+}  // namespace
+
+namespace detail {
+
+int orientation_exact(Point2 a, Point2 b, Point2 c) {
+  if ((a.x == b.x && b.x == c.x) || (a.y == b.y && b.y == c.y)) return 0;
+  if (const auto sign = orientation_in_integers(a, b, c)) return *sign;
+  return static_cast<int>(Kernel().orientation_2_object()(to_cgal(a), to_cgal(b), to_cgal(c)));
+}
+
+int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
+  if (opposite_in_rectangle(a, b, c, d)) return 0;
+  if (const auto sign = in_circle_in_integers(a, b, c, d)) return *sign;
+  return static_cast<int>(
+      Kernel().side_of_oriented_circle_2_object()(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+}
+
+int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {
+  const Point2 largest = std::max({a, b, c, d});
+  if (largest == d) return -1;
+  const int sign = largest == c   ? orientation(a, b, d)
+                   : largest == b ? orientation(a, d, c)
+                                  : orientation(d, b, c);
+  return sign != 0 ? sign : break_tie_of_collinear(a, b, c, d);
+}
+
+// Of four points on a circle, d is inside exactly if the largest is neither d nor its opposite: replacing one
+// of d's neighbours by d keeps the turn, replacing its opposite reverses it. In a rectangle the largest is
+// the upper right corner.
+bool in_circle_perturbed_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
+  if (const auto o = opposite_in_rectangle(a, b, c, d)) return (d.x > o->x) != (d.y > o->y);
+  const int sign = in_circle_exact(a, b, c, d);
+  return sign != 0 ? sign > 0 : break_cocircular_tie(a, b, c, d) > 0;
 }
 
 }  // namespace detail

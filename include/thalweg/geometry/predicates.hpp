@@ -17,6 +17,7 @@ namespace detail {
 int orientation_exact(Point2 a, Point2 b, Point2 c);
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d);
 int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d);
+bool in_circle_perturbed_exact(Point2 a, Point2 b, Point2 c, Point2 d);
 }  // namespace detail
 
 /// +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if collinear.
@@ -37,9 +38,11 @@ inline int orientation(Point2 a, Point2 b, Point2 c) {
   return detail::orientation_exact(a, b, c);
 }
 
-/// +1 if d lies inside the circle through a, b, c, -1 if outside, 0 if on it.
-/// Pre: a, b, c counter-clockwise.
-inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
+/// What a filter says when rounding may hide the sign.
+inline constexpr int kUndecided = 2;
+
+/// As `in_circle`, or kUndecided; a coordinate that is NaN is always undecided.
+inline int in_circle_filtered(Point2 a, Point2 b, Point2 c, Point2 d) {
   constexpr double kEpsilon = 0x1p-53;
   constexpr double kBound = (10 + 96 * kEpsilon) * kEpsilon;
   constexpr double kNoUnderflow = 1e-250;
@@ -60,7 +63,14 @@ inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
     if (determinant > bound) return 1;
     if (-determinant > bound) return -1;
   }
-  return detail::in_circle_exact(a, b, c, d);
+  return kUndecided;
+}
+
+/// +1 if d lies inside the circle through a, b, c, -1 if outside, 0 if on it.
+/// Pre: a, b, c counter-clockwise.
+inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
+  const int sign = in_circle_filtered(a, b, c, d);
+  return sign != kUndecided ? sign : detail::in_circle_exact(a, b, c, d);
 }
 
 /// True if d counts as inside the circle through a, b, c under the tie rule: of four cocircular points the
@@ -68,8 +78,8 @@ inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
 /// other follows by replacing that largest one by d. (CGAL's rule, so that order 0 is CGAL's triangulation.)
 /// Pre: a, b, c counter-clockwise; the four points distinct.
 inline bool in_circle_perturbed(Point2 a, Point2 b, Point2 c, Point2 d) {
-  const int sign = in_circle(a, b, c, d);
-  return sign != 0 ? sign > 0 : detail::break_cocircular_tie(a, b, c, d) > 0;
+  const int sign = in_circle_filtered(a, b, c, d);
+  return sign != kUndecided ? sign > 0 : detail::in_circle_perturbed_exact(a, b, c, d);
 }
 
 /// True if the closed segment pq has a point inside the open disc bounded by the circle through a, b, c; a
