@@ -56,9 +56,26 @@ bool recognises_gpkg(std::string_view head, const std::string&) {
   return starts_with(head, std::string_view("SQLite format 3\0", 16));
 }
 
-// OBJ has no signature.
+bool recognises_netcdf(std::string_view head, const std::string&) {
+  return starts_with(head, "CDF") || starts_with(head, "\x89HDF");
+}
+
+bool recognises_landxml(std::string_view head, const std::string&) {
+  return head.find("<LandXML") != std::string_view::npos;
+}
+
+bool recognises_off(std::string_view head, const std::string&) {
+  return starts_with(head, "OFF") &&
+         (head.size() == 3 || std::isspace(static_cast<unsigned char>(head[3])) != 0);
+}
+
+// OBJ and binary STL have no signature.
 bool recognises_obj(std::string_view, const std::string& path) {
   return same_word(std::filesystem::path(path).extension().string(), ".obj");
+}
+
+bool recognises_stl(std::string_view, const std::string& path) {
+  return same_word(std::filesystem::path(path).extension().string(), ".stl");
 }
 
 }  // namespace
@@ -110,22 +127,64 @@ std::vector<std::string> CreationOptions::list(std::string_view key) const {
 
 std::span<const TinFormat> tin_format_table() {
   using Crs = TinFormat::Crs;
+  using Numbers = TinFormat::Numbers;
+  const std::vector<std::string> edges = {"EDGES=YES|NO"};
+  const std::vector<std::string> one_layer = {"LAYER=triangles|edges|vertices|breaklines|conflicts"};
   static const std::vector<TinFormat> table = {
-      {{"PLY", "Polygon file format (binary)", {".ply"}, true, true, {"EDGES=YES|NO"}},
+      {{"PLY", "Polygon file format (binary)", {".ply"}, true, true, edges},
        Crs::InFile,
+       Numbers::Double,
        write_ply,
        recognises_ply,
        read_ply},
-      {{"2DM", "SMS mesh", {".2dm"}, true, true, {"EDGES=YES|NO"}},
+      {{"2DM", "SMS mesh", {".2dm"}, true, true, edges},
        Crs::InSidecar,
+       Numbers::Double,
        write_2dm,
        recognises_2dm,
        read_2dm},
-      {{"OBJ", "Wavefront object", {".obj"}, true, true, {"EDGES=YES|NO"}},
+      {{"UGRID", "UGRID mesh in NetCDF", {".nc"}, true, true, edges},
+       Crs::InFile,
+       Numbers::Double,
+       write_ugrid,
+       recognises_netcdf,
+       read_ugrid},
+      {{"LandXML", "LandXML 1.2 surface", {".xml", ".landxml"}, true, true, edges},
+       Crs::InFile,
+       Numbers::Double,
+       write_landxml,
+       recognises_landxml,
+       read_landxml},
+      {{"OBJ", "Wavefront object", {".obj"}, true, true, edges},
        Crs::InSidecar,
+       Numbers::Double,
        write_obj,
        recognises_obj,
        read_obj},
+      {{"OFF", "Object file format", {".off"}, true, true, {}},
+       Crs::InSidecar,
+       Numbers::Double,
+       write_off,
+       recognises_off,
+       read_off},
+      {{"STL", "Stereolithography (binary), single precision", {".stl"}, true, true, {}},
+       Crs::InSidecar,
+       Numbers::Single,
+       write_stl,
+       recognises_stl,
+       read_stl},
+      {{"GLB", "glTF 2.0 (binary), single precision", {".glb"}, false, true, edges},
+       Crs::InSidecar,
+       Numbers::Single,
+       write_glb,
+       nullptr,
+       nullptr},
+      {{"VTU", "VTK unstructured grid", {".vtu"}, false, true, edges},
+       Crs::InSidecar,
+       Numbers::Double,
+       write_vtu,
+       nullptr,
+       nullptr},
       {{"GPKG",
         "GeoPackage layers",
         {".gpkg"},
@@ -133,9 +192,28 @@ std::span<const TinFormat> tin_format_table() {
         true,
         {"LAYERS=triangles,edges,vertices,breaklines,conflicts", "SPATIAL_INDEX=YES|NO"}},
        Crs::InFile,
+       Numbers::Double,
        write_gpkg,
        recognises_gpkg,
        read_gpkg_tin},
+      {{"FlatGeobuf", "one layer", {".fgb"}, false, true, one_layer},
+       Crs::InFile,
+       Numbers::Double,
+       write_flatgeobuf,
+       nullptr,
+       nullptr},
+      {{"Shapefile", "one layer, ESRI Shapefile", {".shp"}, false, true, one_layer},
+       Crs::InFile,
+       Numbers::Double,
+       write_shapefile,
+       nullptr,
+       nullptr},
+      {{"GeoJSON", "one layer", {".geojson", ".json"}, false, true, one_layer},
+       Crs::InFile,
+       Numbers::Double,
+       write_geojson,
+       nullptr,
+       nullptr},
   };
   return table;
 }

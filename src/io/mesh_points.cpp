@@ -10,6 +10,7 @@
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <string>
 #include <string_view>
@@ -54,7 +55,9 @@ bool is_mesh(const SourceSpec& spec) {
   std::string extension = spec.path.substr(dot);
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".ply" || extension == ".2dm" || extension == ".obj";
+  constexpr std::array<std::string_view, 7> kMeshes = {".ply", ".2dm", ".obj",    ".off",
+                                                       ".stl", ".xml", ".landxml"};
+  return std::find(kMeshes.begin(), kMeshes.end(), extension) != kMeshes.end();
 }
 
 std::unique_ptr<SourceReader> open_mesh(const SourceSpec& spec, const Progress& progress) {

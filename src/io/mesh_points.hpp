@@ -8,7 +8,7 @@
 
 namespace thalweg {
 
-/// True for the extensions of mesh files: .ply, .2dm, .obj.
+/// True for the extensions of mesh files that are nothing else: .ply, .2dm, .obj, .off, .stl, .xml, .landxml.
 bool is_mesh(const SourceSpec& spec);
 
 /// Reads the mesh. Throws: as the reader of its format; Error{Unsupported} if the content is of no mesh

@@ -10,7 +10,9 @@ namespace {
 
 std::string list_formats() {
   std::string list;
-  for (const TinFormat& format : tin_format_table()) list += (list.empty() ? "" : ", ") + format.info.name;
+  for (const TinFormat& format : tin_format_table()) {
+    if (format.read != nullptr) list += (list.empty() ? "" : ", ") + format.info.name;
+  }
   return list;
 }
 

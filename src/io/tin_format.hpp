@@ -32,12 +32,22 @@ class CreationOptions {
   std::vector<Option> options_;
 };
 
-/// One file to write: the writer fills `path`, errors name `target`.
+/// What is subtracted from positions before they become single precision; whole numbers.
+struct LocalOrigin {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+};
+
+/// One file to write: the writer fills `path`, errors name `target`; what belongs to it goes to `pending`.
 struct TinWriteJob {
   const std::string& path;
   const std::string& target;
   const TinView& view;
   const CreationOptions& options;
+  const LocalOrigin& origin;
+  PendingOutputs& pending;
+  Overwrite mode;
   Progress& progress;
 
   [[nodiscard]] std::span<const Point2> xy() const {
@@ -48,6 +58,7 @@ struct TinWriteJob {
 struct TinFormat {
   FormatInfo info;
   enum class Crs : std::uint8_t { InFile, InSidecar } crs;
+  enum class Numbers : std::uint8_t { Double, Single } numbers;
   void (*write)(const TinWriteJob& job);
   /// True if a file whose first bytes are these is of this format.
   bool (*recognises)(std::string_view head, const std::string& path);
@@ -59,14 +70,38 @@ std::span<const TinFormat> tin_format_table();
 /// "dir/name.ply" -> "dir/name.prj"
 std::string sidecar_path(const std::string& path);
 
+/// "dir/name.stl" -> "dir/name.stl.json", which tells the origin of a file in single precision.
+std::string origin_path(const std::string& path);
+/// The origin that the file beside `path` tells; zero without one. Throws: Error{BadFormat}.
+LocalOrigin read_origin(const std::string& path);
+/// The origin that keeps the most digits: zero if single precision holds every number, else the middle of the
+/// box.
+LocalOrigin choose_origin(std::span<const Point2> xy, std::span<const double> z);
+/// Writes the sidecar of an origin; none, and none left, for zero.
+void write_origin(const std::string& target, const TinView& view, const LocalOrigin& origin,
+                  PendingOutputs& pending, Overwrite mode);
+
 void write_ply(const TinWriteJob& job);
 void write_2dm(const TinWriteJob& job);
 void write_obj(const TinWriteJob& job);
+void write_off(const TinWriteJob& job);
+void write_stl(const TinWriteJob& job);
+void write_glb(const TinWriteJob& job);
+void write_vtu(const TinWriteJob& job);
+void write_ugrid(const TinWriteJob& job);
+void write_landxml(const TinWriteJob& job);
 void write_gpkg(const TinWriteJob& job);
+void write_flatgeobuf(const TinWriteJob& job);
+void write_shapefile(const TinWriteJob& job);
+void write_geojson(const TinWriteJob& job);
 
 TinFile read_ply(const std::string& path, Progress& progress);
 TinFile read_2dm(const std::string& path, Progress& progress);
 TinFile read_obj(const std::string& path, Progress& progress);
+TinFile read_off(const std::string& path, Progress& progress);
+TinFile read_stl(const std::string& path, Progress& progress);
+TinFile read_ugrid(const std::string& path, Progress& progress);
+TinFile read_landxml(const std::string& path, Progress& progress);
 TinFile read_gpkg_tin(const std::string& path, Progress& progress);
 
 }  // namespace thalweg

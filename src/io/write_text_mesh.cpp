@@ -1,12 +1,11 @@
-// The text formats 2DM and OBJ.
+// The text formats 2DM, OBJ and OFF.
 //
 // Numbers are the shortest text that reads back as the same double. 2DM (SMS; QGIS by MDAL): node ids ascend
 // from 1; constraint edges are node strings, ten nodes a line, the last one negative, then the string's id
 // and its kind. OBJ: z is up, constraint edges are line elements; an element in two groups ("g ridge
-// boundary") is both.
-#include "io/edge_chains.hpp"
+// boundary") is both. OFF holds vertices and triangles, nothing else.
 #include "io/file_writer.hpp"
-#include "io/tin_format.hpp"
+#include "io/write_steps.hpp"
 
 #include <algorithm>
 #include <string>
@@ -15,14 +14,6 @@
 namespace thalweg {
 
 namespace {
-
-constexpr std::size_t kProgressStep = 1U << 14U;
-
-std::vector<EdgeChain> chains_to_write(const TinWriteJob& job) {
-  if (!job.options.enabled("EDGES")) return {};
-  const std::vector<ConstraintEdge> edges = job.view.tin.constraint_edges();
-  return chain_edges(edges);
-}
 
 void write_position(FileWriter& file, const TinWriteJob& job, std::size_t v) {
   file.number(job.xy()[v].x);
@@ -36,16 +27,6 @@ void write_corners(FileWriter& file, const Triangle& triangle) {
   for (const VertexId v : triangle) {
     file.character(' ');
     file.number(v.value() + 1);
-  }
-}
-
-// Calls `write` for 0 .. count - 1 and reports the phase's progress from `start` on.
-template <class Write>
-void write_each(const TinWriteJob& job, std::size_t start, std::size_t count, const Write& write) {
-  const double total = static_cast<double>(job.view.tin.vertex_count() + job.view.tin.triangle_count() + 1);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i % kProgressStep == 0) job.progress.advance(static_cast<double>(start + i) / total);
-    write(i);
   }
 }
 
@@ -83,6 +64,26 @@ void write_2dm(const TinWriteJob& job) {
   });
   std::size_t id = 0;
   for (const EdgeChain& chain : chains_to_write(job)) write_node_string(file, chain, ++id);
+  file.close();
+}
+
+void write_off(const TinWriteJob& job) {
+  const Tin& tin = job.view.tin;
+  FileWriter file(job.path, job.target);
+  file.text("OFF\n" + std::to_string(tin.vertex_count()) + " " + std::to_string(tin.triangle_count()) +
+            " 0\n");
+  write_each(job, 0, tin.vertex_count(), [&](std::size_t v) {
+    write_position(file, job, v);
+    file.character('\n');
+  });
+  write_each(job, tin.vertex_count(), tin.triangle_count(), [&](std::size_t t) {
+    file.character('3');
+    for (const VertexId v : tin.triangles()[t]) {
+      file.character(' ');
+      file.number(v.value());
+    }
+    file.character('\n');
+  });
   file.close();
 }
 

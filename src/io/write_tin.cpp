@@ -110,7 +110,12 @@ void write_tin(const std::string& path, const TinView& view, const WriteOptions&
   progress.start_phase("write " + format.info.name);
   const std::string written = pending.add(path, mode);
   if (format.crs == TinFormat::Crs::InSidecar) write_sidecar(sidecar_path(path), view, pending, mode);
-  format.write({written, path, view, creation, progress});
+  LocalOrigin origin;
+  if (format.numbers == TinFormat::Numbers::Single) {
+    origin = choose_origin(view.written_xy.empty() ? view.tin.points() : view.written_xy, view.tin.heights());
+    write_origin(path, view, origin, pending, mode);
+  }
+  format.write({written, path, view, creation, origin, pending, mode, progress});
   progress.advance(1);
 }
 

@@ -33,6 +33,7 @@ FENCES = {
     "GDAL": (re.compile(r"(gdal|ogr|cpl_|vrt|proj)[a-z0-9_]*\.h"), {"io"}),
     "GeographicLib": (re.compile(r"GeographicLib/"), {"geodesy"}),
     "Cairo": (re.compile(r"cairo"), {"io"}),
+    "NetCDF": (re.compile(r"netcdf"), {"io"}),
 }
 STANDARD_HEADER = re.compile(r"[a-z_0-9]+")
 PRINTS_OR_ENDS = re.compile(

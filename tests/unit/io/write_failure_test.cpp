@@ -34,7 +34,9 @@ class FileSizeLimit {
 
 class FullDisk : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(AllFormats, FullDisk, testing::Values(".ply", ".2dm", ".obj", ".gpkg"),
+INSTANTIATE_TEST_SUITE_P(AllFormats, FullDisk,
+                         testing::Values(".ply", ".2dm", ".obj", ".gpkg", ".nc", ".xml", ".off", ".stl",
+                                         ".glb", ".vtu", ".fgb", ".geojson"),
                          [](const auto& param) { return std::string(param.param).substr(1); });
 
 TEST_P(FullDisk, GivesWriteFailedAndNoFile) {
@@ -45,7 +47,7 @@ TEST_P(FullDisk, GivesWriteFailedAndNoFile) {
   test::write_file(path, view);
   const std::uintmax_t whole = std::filesystem::file_size(path);
   std::filesystem::remove_all(path);
-  std::filesystem::remove(folder.file("a.prj"));
+  for (const std::string& name : folder.names()) std::filesystem::remove(folder.file(name));
   for (const std::uintmax_t part : {std::uintmax_t{0}, whole / 3, whole - 1}) {
     expect_error(ErrorCode::WriteFailed, {path.substr(0, path.size() - 4), "no partial file"}, [&] {
       const FileSizeLimit limit(part);

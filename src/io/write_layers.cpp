@@ -1,4 +1,4 @@
-// GeoPackage layers of a TIN, by GDAL.
+// Vector layers of a TIN, by GDAL: all of them in a GeoPackage, or one in a format that holds one.
 //
 // 1. One transaction; SQLite's own journal and syncs are off, because the file is a temporary one that is
 // flushed as a
@@ -6,8 +6,12 @@
 // 2. Features and geometries are made once a layer and refilled.
 // 3. GDAL's close returns nothing: what it said while closing decides whether the file is whole.
 // The date of last change in the file is fixed, so that equal input gives equal bytes.
+// One-layer formats are made in memory and copied out: a shapefile is several files, and the drivers of
+// FlatGeobuf and GeoJSON do not notice a full disk. GeoJSON is rounded to about 15 digits by its driver.
+// Triangles are polygons everywhere: OGR's type TIN is refused or lost by half of the drivers.
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
+#include "io/memory_folder.hpp"
 #include "io/spatial_reference.hpp"
 #include "io/tin_format.hpp"
 
@@ -49,11 +53,22 @@ const char* conflict_word(Conflict::Kind kind) {
   return "unknown";
 }
 
-class GpkgWriter {
+enum class Transactions : std::uint8_t { One, None };
+
+/// How a driver is spoken to.
+struct LayerFormat {
+  const char* driver;
+  Transactions transactions;
+  std::vector<std::string> layers;
+  std::vector<std::string> layer_options;
+};
+
+class LayerWriter {
  public:
-  explicit GpkgWriter(const TinWriteJob& job)
+  LayerWriter(const TinWriteJob& job, const std::string& path, LayerFormat format)
       : job_(job),
         tin_(job.view.tin),
+        format_(std::move(format)),
         journal_("OGR_SQLITE_JOURNAL", "OFF", false),
         synchronous_("OGR_SQLITE_SYNCHRONOUS", "OFF", false),
         date_("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z", false) {
@@ -61,25 +76,28 @@ class GpkgWriter {
       reference_ = parse_reference(job.view.crs_wkt);
     else if (!job.view.crs_authority.empty())
       reference_ = parse_reference(job.view.crs_authority);
-    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
-    if (driver == nullptr)
-      throw Error(ErrorCode::Unsupported, "this GDAL has no GPKG driver; write another format");
-    dataset_.reset(driver->Create(job.path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-    if (!dataset_ || dataset_->StartTransaction() != OGRERR_NONE) fail();
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(format_.driver);
+    if (driver == nullptr) {
+      throw Error(ErrorCode::Unsupported,
+                  job.target + ": this GDAL has no driver " + format_.driver + "; write another format");
+    }
+    dataset_.reset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    if (!dataset_) fail();
+    if (format_.transactions == Transactions::One && dataset_->StartTransaction() != OGRERR_NONE) fail();
     session_.reset();
   }
 
   void write() {
-    const std::vector<std::string> layers = job_.options.list("LAYERS");
     const auto wanted = [&](const char* name) {
-      return std::find(layers.begin(), layers.end(), name) != layers.end();
+      return std::find(format_.layers.begin(), format_.layers.end(), name) != format_.layers.end();
     };
     if (wanted("triangles")) write_triangles();
     if (wanted("edges")) write_edges();
     if (wanted("vertices")) write_vertices();
     if (wanted("breaklines")) write_breaklines();
     if (wanted("conflicts")) write_conflicts();
-    if (dataset_->CommitTransaction() != OGRERR_NONE) fail();
+    if (format_.transactions == Transactions::One && dataset_->CommitTransaction() != OGRERR_NONE) fail();
+    feature_.reset();
     dataset_.reset();
     if (session_.failed()) fail();
   }
@@ -93,7 +111,7 @@ class GpkgWriter {
 
   void create_layer(const char* name, OGRwkbGeometryType type, std::initializer_list<Field> fields) {
     CPLStringList options;
-    options.SetNameValue("SPATIAL_INDEX", job_.options.enabled("SPATIAL_INDEX") ? "YES" : "NO");
+    for (const std::string& option : format_.layer_options) options.AddString(option.c_str());
     layer_ = dataset_->CreateLayer(name, reference_ ? &*reference_ : nullptr, type, options.List());
     if (layer_ == nullptr) fail();
     for (const Field& field : fields) {
@@ -221,6 +239,7 @@ class GpkgWriter {
 
   const TinWriteJob& job_;
   const Tin& tin_;
+  LayerFormat format_;
   GdalSession session_;
   CPLConfigOptionSetter journal_, synchronous_, date_;
   std::optional<OGRSpatialReference> reference_;
@@ -229,10 +248,32 @@ class GpkgWriter {
   std::unique_ptr<OGRFeature> feature_;
 };
 
+void write_one_layer(const TinWriteJob& job, const char* driver, std::vector<std::string> layer_options) {
+  const MemoryFolder folder(job.target);
+  LayerWriter(job, folder.path(),
+              {driver, Transactions::None, job.options.list("LAYER"), std::move(layer_options)})
+      .write();
+  folder.deliver(job.path, job.pending, job.mode);
+}
+
 }  // namespace
 
 void write_gpkg(const TinWriteJob& job) {
-  GpkgWriter(job).write();
+  const char* const index = job.options.enabled("SPATIAL_INDEX") ? "SPATIAL_INDEX=YES" : "SPATIAL_INDEX=NO";
+  LayerWriter(job, job.path, {"GPKG", Transactions::One, job.options.list("LAYERS"), {index}}).write();
+}
+
+void write_flatgeobuf(const TinWriteJob& job) {
+  write_one_layer(job, "FlatGeobuf", {});
+}
+
+void write_geojson(const TinWriteJob& job) {
+  write_one_layer(job, "GeoJSON", {});
+}
+
+void write_shapefile(const TinWriteJob& job) {
+  write_one_layer(job, "ESRI Shapefile",
+                  {"DBF_DATE_LAST_UPDATE=2000-01-01", "ENCODING=UTF-8", "2GB_LIMIT=YES"});
 }
 
 }  // namespace thalweg

@@ -1,0 +1,52 @@
+// A folder of GDAL's /vsimem/ with a name of its own.
+#include "io/memory_folder.hpp"
+
+#include "io/file_writer.hpp"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+
+#include <atomic>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+void copy_out(const std::string& from, const std::string& to, const std::string& target) {
+  vsi_l_offset size = 0;
+  const GByte* bytes = VSIGetMemFileBuffer(from.c_str(), &size, FALSE);
+  FileWriter file(to, target);
+  // The standard lets bytes be looked at as characters.
+  file.text({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)});
+  file.close();
+}
+
+}  // namespace
+
+MemoryFolder::MemoryFolder(std::string target) : target_(std::move(target)) {
+  static std::atomic<unsigned> counter{0};
+  folder_ = "/vsimem/thalweg-" + std::to_string(counter++);
+  path_ = folder_ + "/" + std::filesystem::path(target_).filename().string();
+  VSIMkdir(folder_.c_str(), 0700);
+}
+
+MemoryFolder::~MemoryFolder() {
+  VSIRmdirRecursive(folder_.c_str());
+}
+
+void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, Overwrite mode) const {
+  copy_out(path_, written, target_);
+  const CPLStringList names(VSIReadDir(folder_.c_str()));
+  for (int i = 0; i < names.size(); ++i) {
+    const std::string name = names[i];
+    const std::string from = folder_ + "/" + name;
+    if (from == path_ || name == "." || name == "..") continue;
+    const std::string beside = std::filesystem::path(target_).replace_filename(name).string();
+    copy_out(from, pending.add(beside, mode), beside);
+  }
+}
+
+}  // namespace thalweg

@@ -1,0 +1,226 @@
+// LandXML: the one TIN surface of a file, by GDAL's plain XML parser.
+//
+// 1. Points have any ids, as words; positions are "northing easting elevation".
+// 2. Faces are triangles of ids. Those marked invisible (i="1") are no surface: they close the hull.
+// 3. Breaklines and boundaries of the source data name positions, not points. Consecutive positions that are
+//    both a point of the surface, to the last bit, and joined by an edge of it, are a constraint edge; else
+//    the program that made the surface did not keep the line, and the piece is left out.
+#include "io/edge_chains.hpp"
+#include "io/file_content.hpp"
+#include "io/gdal_session.hpp"
+#include "io/tin_format.hpp"
+
+#include <cpl_minixml.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+struct DestroyXml {
+  void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
+};
+
+// Calls `visit` for the children elements of `node` with the given name.
+template <class Visit>
+void for_each_child(const CPLXMLNode* node, const char* name, const Visit& visit) {
+  if (node == nullptr) return;
+  for (const CPLXMLNode* child = node->psChild; child != nullptr; child = child->psNext) {
+    if (child->eType == CXT_Element && std::strcmp(child->pszValue, name) == 0) visit(child);
+  }
+}
+
+std::string attribute(const CPLXMLNode* node, const char* name) {
+  const char* text = CPLGetXMLValue(const_cast<CPLXMLNode*>(node), name, "");
+  return text;
+}
+
+class LandXmlReader {
+ public:
+  LandXmlReader(const std::string& path, Progress& progress) : path_(path), progress_(progress) {}
+
+  TinFile read() {
+    const GdalSession session;
+    std::string text(FileContent(path_).bytes());
+    const std::unique_ptr<CPLXMLNode, DestroyXml> tree(CPLParseXMLString(text.c_str()));
+    text = {};
+    if (!tree) fail(ErrorCode::BadFormat, "is broken XML" + session.reason());
+    CPLStripXMLNamespace(tree.get(), nullptr, TRUE);
+    const CPLXMLNode* root = CPLGetXMLNode(tree.get(), "=LandXML");
+    if (root == nullptr) fail(ErrorCode::BadFormat, "is XML, but its root is not LandXML");
+    const CPLXMLNode* surface = find_surface(root);
+    const CPLXMLNode* definition = CPLGetXMLNode(const_cast<CPLXMLNode*>(surface), "Definition");
+    progress_.advance(1.0 / 3);
+    read_points(CPLGetXMLNode(const_cast<CPLXMLNode*>(definition), "Pnts"));
+    for_each_child(definition, "Faces", [&](const CPLXMLNode* faces) { read_faces(faces); });
+    progress_.advance(2.0 / 3);
+    read_lines(CPLGetXMLNode(const_cast<CPLXMLNode*>(surface), "SourceData"));
+    read_crs(root);
+    return std::move(tin_);
+  }
+
+ private:
+  [[noreturn]] void fail(ErrorCode code, const std::string& what) const {
+    throw Error(code, path_ + ": " + what);
+  }
+
+  [[nodiscard]] const CPLXMLNode* find_surface(const CPLXMLNode* root) const {
+    std::vector<const CPLXMLNode*> found;
+    std::string names;
+    for_each_child(root, "Surfaces", [&](const CPLXMLNode* surfaces) {
+      for_each_child(surfaces, "Surface", [&](const CPLXMLNode* surface) {
+        if (CPLGetXMLNode(const_cast<CPLXMLNode*>(surface), "Definition.Faces") == nullptr) return;
+        found.push_back(surface);
+        names += (names.empty() ? "" : ", ") + attribute(surface, "name");
+      });
+    });
+    if (found.empty())
+      fail(ErrorCode::EmptyInput, "holds no surface with faces; export the surface as a TIN");
+    if (found.size() > 1) {
+      fail(ErrorCode::Unsupported,
+           "holds " + std::to_string(found.size()) + " surfaces (" + names + "); export one surface a file");
+    }
+    return found.front();
+  }
+
+  // The numbers of an element's text; its `row` names it in errors.
+  [[nodiscard]] std::vector<double> numbers(const CPLXMLNode* node, const char* what, std::size_t row) const {
+    const std::string text = attribute(node, "");
+    const std::string where = path_ + " " + what + " " + std::to_string(row);
+    TextScanner scanner(text, where);
+    std::vector<double> values;
+    for (std::string_view word = scanner.word_anywhere(); !word.empty(); word = scanner.word_anywhere()) {
+      const std::optional<double> value = parse_number(word);
+      if (!value)
+        fail(ErrorCode::BadFormat, std::string(what) + " " + std::to_string(row) + ": '" +
+                                       std::string(word.substr(0, 40)) + "' is no number");
+      if (!std::isfinite(*value)) {
+        fail(ErrorCode::BadCoordinate, std::string(what) + " " + std::to_string(row) + " is not finite");
+      }
+      values.push_back(*value);
+    }
+    return values;
+  }
+
+  void read_points(const CPLXMLNode* points) {
+    if (points == nullptr) fail(ErrorCode::BadFormat, "the surface has no points (Pnts)");
+    for_each_child(points, "P", [&](const CPLXMLNode* node) {
+      const std::size_t row = tin_.points.size() + 1;
+      if (row % kCheckStep == 0) progress_.check();
+      const std::vector<double> values = numbers(node, "point", row);
+      if (values.size() != 3) {
+        fail(ErrorCode::MissingHeight, "point " + std::to_string(row) + " has " +
+                                           std::to_string(values.size()) +
+                                           " coordinates; northing, easting and elevation are needed");
+      }
+      if (!ids_.emplace(attribute(node, "id"), VertexId{row - 1}).second) {
+        fail(ErrorCode::BadFormat, "point id " + attribute(node, "id") + " is there twice");
+      }
+      tin_.points.push_back({values[1], values[0]});
+      tin_.heights.push_back(values[2]);
+    });
+  }
+
+  void read_faces(const CPLXMLNode* faces) {
+    std::size_t row = 0;
+    for_each_child(faces, "F", [&](const CPLXMLNode* node) {
+      if (++row % kCheckStep == 0) progress_.check();
+      if (attribute(node, "i") == "1") return;
+      const std::string text = attribute(node, "");
+      TextScanner scanner(text, path_);
+      Triangle triangle;
+      std::size_t corners = 0;
+      for (std::string_view word = scanner.word_anywhere(); !word.empty(); word = scanner.word_anywhere()) {
+        const auto id = ids_.find(std::string(word));
+        if (id == ids_.end()) {
+          fail(ErrorCode::BadFormat, "face " + std::to_string(row) + " names point " +
+                                         std::string(word.substr(0, 40)) + ", which does not exist");
+        }
+        if (corners < 3) triangle[corners] = id->second;
+        ++corners;
+      }
+      if (corners != 3) {
+        fail(ErrorCode::WrongGeometry, "face " + std::to_string(row) + " has " + std::to_string(corners) +
+                                           " corners; a TIN has triangles only");
+      }
+      tin_.triangles.push_back(triangle);
+    });
+  }
+
+  void read_lines(const CPLXMLNode* source) {
+    if (source == nullptr) return;
+    for (std::size_t v = 0; v < tin_.points.size(); ++v) places_.emplace(key(v), VertexId{v});
+    for (const Triangle& t : tin_.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) edges_.push_back(std::minmax(t[i], t[(i + 1) % 3]));
+    }
+    std::sort(edges_.begin(), edges_.end());
+    for_each_child(source, "Breaklines", [&](const CPLXMLNode* list) {
+      for_each_child(list, "Breakline", [&](const CPLXMLNode* line) {
+        read_line(line, parse_kind_words(attribute(line, "desc")).value_or(EdgeKind::Breakline));
+      });
+    });
+    for_each_child(source, "Boundaries", [&](const CPLXMLNode* list) {
+      for_each_child(list, "Boundary", [&](const CPLXMLNode* line) {
+        read_line(line, attribute(line, "bndType") == "void" ? EdgeKind::Hole : EdgeKind::Boundary);
+      });
+    });
+    for (const auto& [edge, kind] : constraints_) tin_.constraints.push_back({edge.first, edge.second, kind});
+  }
+
+  void read_line(const CPLXMLNode* line, EdgeKind kind) {
+    for_each_child(line, "PntList3D", [&](const CPLXMLNode* list) {
+      const std::vector<double> values = numbers(list, "breakline", 0);
+      VertexId before;
+      for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
+        const auto place = places_.find({values[i + 1], values[i]});
+        const VertexId v = place == places_.end() ? VertexId{} : place->second;
+        if (before.valid() && v.valid() && before != v) {
+          const std::pair<VertexId, VertexId> edge = std::minmax(before, v);
+          if (std::binary_search(edges_.begin(), edges_.end(), edge)) {
+            EdgeKind& known = constraints_[edge];
+            known = known | kind;
+          }
+        }
+        before = v;
+      }
+    });
+  }
+
+  void read_crs(const CPLXMLNode* root) {
+    const CPLXMLNode* crs = CPLGetXMLNode(const_cast<CPLXMLNode*>(root), "CoordinateSystem");
+    if (crs == nullptr) return;
+    const std::string code = attribute(crs, "epsgCode");
+    tin_.crs = code.empty() ? attribute(crs, "ogcWktCode") : "EPSG:" + code;
+  }
+
+  [[nodiscard]] std::pair<double, double> key(std::size_t v) const {
+    return {tin_.points[v].x, tin_.points[v].y};
+  }
+
+  static constexpr std::size_t kCheckStep = 4096;
+  const std::string& path_;
+  Progress& progress_;
+  TinFile tin_;
+  std::unordered_map<std::string, VertexId> ids_;
+  std::map<std::pair<double, double>, VertexId> places_;
+  std::vector<std::pair<VertexId, VertexId>> edges_;
+  std::map<std::pair<VertexId, VertexId>, EdgeKind> constraints_;
+};
+
+}  // namespace
+
+TinFile read_landxml(const std::string& path, Progress& progress) {
+  return LandXmlReader(path, progress).read();
+}
+
+}  // namespace thalweg
