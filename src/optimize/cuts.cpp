@@ -6,7 +6,7 @@
 // among all that meet the cuts listed so far, so also among the fewer that meet all.
 #include "optimize/cuts.hpp"
 
-#include "optimize/union_find.hpp"
+#include "base/union_find.hpp"
 
 #include <algorithm>
 

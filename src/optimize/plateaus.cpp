@@ -31,7 +31,7 @@
 #include "optimize/plateaus.hpp"
 
 #include "base/parallel.hpp"
-#include "optimize/union_find.hpp"
+#include "base/union_find.hpp"
 
 #include <thalweg/base/assert.hpp>
 

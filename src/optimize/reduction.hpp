@@ -3,7 +3,7 @@
 /// Labels that every optimum, or one, must have, found in near-linear time.
 
 #include "optimize/labelling.hpp"
-#include "optimize/union_find.hpp"
+#include "base/union_find.hpp"
 
 #include <thalweg/base/progress.hpp>
 

@@ -1,4 +1,5 @@
 // Constrained orders on request: read, triangulate, then ask module order.
+#include "pipeline/order_lists.hpp"
 #include "pipeline/plane_survey.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -47,33 +48,7 @@ TriangleOrders ask(const ConstrainedOrder& orders, const std::array<std::uint32_
   return answer;
 }
 
-/// One row of the list: corners from the smallest id, and which of st, uv is the diagonal in the ground.
-struct QuadrilateralRow {
-  std::array<std::uint32_t, 4> corners{};
-  bool delaunay_is_st = false;
-  auto operator<=>(const QuadrilateralRow&) const = default;
-};
-
-QuadrilateralRow row_of(const Quadrilateral& q) {
-  QuadrilateralRow row{{q.s.value(), q.u.value(), q.t.value(), q.v.value()}, false};
-  while (row.corners[0] != *std::min_element(row.corners.begin(), row.corners.end())) {
-    std::rotate(row.corners.begin(), row.corners.begin() + 1, row.corners.end());
-    row.delaunay_is_st = !row.delaunay_is_st;
-  }
-  return row;
-}
-
-void write_quadrilaterals(const std::string& path, const std::string& target,
-                          const std::vector<Quadrilateral>& quadrilaterals) {
-  std::vector<QuadrilateralRow> rows;
-  rows.reserve(quadrilaterals.size());
-  std::transform(quadrilaterals.begin(), quadrilaterals.end(), std::back_inserter(rows), row_of);
-  std::sort(rows.begin(), rows.end());
-  std::string text = "s,u,t,v,delaunay\n";
-  for (const QuadrilateralRow& row : rows) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", row.corners[0], row.corners[1],
-                   row.corners[2], row.corners[3], row.delaunay_is_st ? "st" : "uv");
-  }
+void write_list(const std::string& path, const std::string& target, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
   file.close();
@@ -117,10 +92,13 @@ nlohmann::ordered_json answer_json(const TriangleOrders& answer) {
 
 OrderResult order_points(const OrderConfig& config, Progress& progress) {
   PendingOutputs outputs;
-  const std::string list =
-      config.quadrilaterals_path.empty()
-          ? std::string()
-          : outputs.add(config.quadrilaterals_path, config.overwrite ? Overwrite::Yes : Overwrite::No);
+  const auto reserve = [&](const std::string& path) {
+    return path.empty() ? std::string()
+                        : outputs.add(path, config.overwrite ? Overwrite::Yes : Overwrite::No);
+  };
+  const std::string triangles_file = reserve(config.triangles_path);
+  const std::string edges_file = reserve(config.edges_path);
+  const std::string quadrilaterals_file = reserve(config.quadrilaterals_path);
   progress.start_phase("read");
   PlaneSurvey survey = read_into_plane(config.points, config.lines, config.read, progress).survey;
   progress.start_phase("triangulate");
@@ -128,23 +106,75 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   OrderResult result{.vertices = ground.tin.vertex_count(),
                      .triangles = ground.tin.triangle_count(),
                      .constraint_edges = ground.tin.constraint_edges().size(),
-                     .definition = std::string(definition_name(config.definition))};
+                     .definition = std::string(definition_name(config.definition)),
+                     .max_order = config.max_order};
 
   progress.start_phase("orders");
   const ConstrainedOrder orders(ground.tin, ground.mode);
   OrderWorkspace workspace;
   for (const auto& corners : config.triangles) result.asked.push_back(ask(orders, corners, workspace));
-  if (!list.empty()) {
+  if (!triangles_file.empty() || !edges_file.empty()) {
+    std::vector<OrderTriangle> triangles = find_order_triangles(
+        orders, {.definition = config.definition, .max_order = config.max_order}, progress);
+    if (!triangles_file.empty()) {
+      result.order_triangles = triangles.size();
+      write_list(triangles_file, config.triangles_path, triangle_list(triangles));
+    }
+    if (!edges_file.empty()) {
+      const std::vector<UsefulEdge> edges =
+          find_useful_edges(orders, std::move(triangles),
+                            {.definition = config.definition, .max_order = config.max_order}, progress);
+      result.useful_edges = edges.size();
+      result.unknown_edges = static_cast<std::size_t>(std::count_if(
+          edges.begin(), edges.end(), [](const UsefulEdge& edge) { return !edge.order.has_value(); }));
+      write_list(edges_file, config.edges_path, edge_list(edges));
+    }
+  }
+  if (!quadrilaterals_file.empty()) {
     const std::vector<Quadrilateral> quadrilaterals =
         find_quadrilaterals(ground.tin, {.definition = config.definition, .mode = ground.mode}, progress);
-    write_quadrilaterals(list, config.quadrilaterals_path, quadrilaterals);
     result.quadrilaterals = quadrilaterals.size();
-    result.quadrilaterals_listed = true;
+    write_list(quadrilaterals_file, config.quadrilaterals_path, quadrilateral_list(quadrilaterals));
   }
+  if (config.census) take_census(orders, result, progress);
   outputs.commit();
   progress.advance(1);
   return result;
 }
+
+namespace {
+
+nlohmann::ordered_json census_json(const OrderResult& result) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const auto per_point = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(result.vertices);
+  };
+  for (const CensusRow& row : result.census) {
+    rows.push_back({{"definition", definition_name(row.definition)},
+                    {"order", row.order},
+                    {"triangles", row.triangles},
+                    {"edges", row.edges},
+                    {"unknown_edges", row.unknown_edges},
+                    {"triangles_per_point", per_point(row.triangles)},
+                    {"edges_per_point", per_point(row.edges)}});
+  }
+  return rows;
+}
+
+std::string census_text(const OrderResult& result) {
+  std::string text = fmt::format("{:<12}{:>6}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "definition", "order",
+                                 "triangles", "per point", "edges", "per point", "unknown");
+  for (const CensusRow& row : result.census) {
+    const auto vertices = static_cast<double>(result.vertices);
+    text += fmt::format("{:<12}{:>6}{:>12}{:>12.3f}{:>12}{:>12.3f}{:>12}\n", definition_name(row.definition),
+                        row.order, row.triangles, static_cast<double>(row.triangles) / vertices, row.edges,
+                        static_cast<double>(row.edges) / vertices, row.unknown_edges);
+  }
+  for (const std::string& reason : result.not_taken) text += reason + "\n";
+  return text;
+}
+
+}  // namespace
 
 std::string to_json(const OrderResult& result) {
   using Json = nlohmann::ordered_json;
@@ -157,17 +187,36 @@ std::string to_json(const OrderResult& result) {
   Json json = {{"vertices", result.vertices},
                {"triangles", result.triangles},
                {"constraint_edges", result.constraint_edges},
-               {"definition", result.definition}};
-  if (result.quadrilaterals_listed) json["quadrilaterals"] = result.quadrilaterals;
+               {"definition", result.definition},
+               {"order", result.max_order}};
+  if (result.order_triangles) json["order_triangles"] = *result.order_triangles;
+  if (result.useful_edges) json["useful_edges"] = *result.useful_edges;
+  if (result.unknown_edges) json["unknown_edges"] = *result.unknown_edges;
+  if (result.quadrilaterals) json["quadrilaterals"] = *result.quadrilaterals;
+  if (!result.census.empty()) json["census"] = census_json(result);
+  if (!result.not_taken.empty()) json["not_taken"] = result.not_taken;
   return json.dump(2) + "\n";
 }
 
 std::string to_text(const OrderResult& result) {
   std::string text = fmt::format("{} vertices, {} triangles, {} constraint edges\n", result.vertices,
                                  result.triangles, result.constraint_edges);
-  if (result.quadrilaterals_listed) {
-    text += fmt::format("{} quadrilaterals under {}\n", result.quadrilaterals, result.definition);
+  if (result.order_triangles) {
+    text += fmt::format("{} valid triangles of order at most {} under {}\n", *result.order_triangles,
+                        result.max_order, result.definition);
   }
+  if (result.useful_edges) {
+    text += fmt::format("{} edges useful at order {} under {}", *result.useful_edges, result.max_order,
+                        result.definition);
+    if (*result.unknown_edges > 0) {
+      text += fmt::format(", of {} of which it is not known whether they are", *result.unknown_edges);
+    }
+    text += "\n";
+  }
+  if (result.quadrilaterals) {
+    text += fmt::format("{} quadrilaterals under {}\n", *result.quadrilaterals, result.definition);
+  }
+  if (!result.census.empty()) text += census_text(result);
   for (const TriangleOrders& answer : result.asked) {
     text += fmt::format("triangle {}, {}, {}", answer.corners[0], answer.corners[1], answer.corners[2]);
     if (answer.validity.fault != TriangleFault::None) {

@@ -1,4 +1,4 @@
-// thalweg order: constrained orders of triangles, and the first-order quadrilaterals.
+// thalweg order: constrained orders of triangles, all triangles and useful edges of an order, quadrilaterals.
 #include "command.hpp"
 #include "source_options.hpp"
 
@@ -19,6 +19,7 @@ struct OrderArguments {
   SourceArguments sources;
   std::vector<std::string> triangles;
   std::string definition = "sees-opp";
+  std::string order = "1";
   OrderConfig config;
   Common common;
 };
@@ -38,16 +39,27 @@ std::array<std::uint32_t, 3> parse_triangle(const std::string& text) {
   return corners;
 }
 
+std::size_t parse_max_order(const std::string& text) {
+  std::size_t order = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), order);
+  constexpr std::size_t kLargest = 1000;
+  if (error != std::errc() || rest != text.data() + text.size() || order > kLargest) {
+    throw Error(ErrorCode::Usage, "--order takes a whole number from 0 to 1000, not '" + text + "'");
+  }
+  return order;
+}
+
 void run_order(OrderArguments& a) {
   OrderConfig& config = a.config;
   for (const std::string& source : a.points) config.points.push_back(parse_source(source));
   apply_sources(a.sources, config.read, config.lines);
   for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
   config.definition = parse_definition(a.definition);
+  config.max_order = parse_max_order(a.order);
   const OrderResult result = order_points(config, progress_of(a.common));
   if (a.common.format == Format::Json) {
     print(to_json(result));
-  } else if (a.common.quiet == 0 || !result.asked.empty()) {
+  } else if (a.common.quiet == 0 || !result.asked.empty() || config.census) {
     print(to_text(result));
   }
 }
@@ -57,7 +69,7 @@ void run_order(OrderArguments& a) {
 void add_order_command(CLI::App& app) {
   auto a = std::make_shared<OrderArguments>();
   CLI::App* command =
-      app.add_subcommand("order", "constrained orders: of triangles, and first-order quadrilaterals");
+      app.add_subcommand("order", "constrained orders: of triangles, useful edges, quadrilaterals");
   command->add_option("POINTS", a->points, "sources of points; x and y suffice")->required();
   add_source_options(*command, a->sources, a->config.read);
   add_crossing_option(*command, a->config.ground);
@@ -68,6 +80,13 @@ void add_order_command(CLI::App& app) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--definition", a->definition, "which constrained order (default: sees-opp)");
+  command->add_option("--order", a->order, "largest order of what is listed and counted (default: 1)");
+  command->add_option("--list-triangles", a->config.triangles_path,
+                      "CSV a,b,c,order of every valid triangle of that order");
+  command->add_option("--list-edges", a->config.edges_path,
+                      "CSV a,b,order of every useful edge, with the smallest order at which it is useful");
+  command->add_flag("--census", a->config.census,
+                    "count triangles and useful edges of order 0 to --order under every definition");
   command->add_option("--list-quadrilaterals", a->config.quadrilaterals_path,
                       "CSV s,u,t,v,delaunay of the first-order quadrilaterals");
   command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");

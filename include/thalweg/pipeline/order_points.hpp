@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,12 @@ struct OrderConfig {
   ReadOptions read = {.heights = HeightRule::Optional};
   GroundOptions ground = {.crossing = CrossingRule::Error};
   OrderDefinition definition = OrderDefinition::SeesOpp;
+  std::size_t max_order = 1;  ///< of what is listed and counted
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::string triangles_path;       ///< CSV a,b,c,order of all valid triangles; empty: none
+  std::string edges_path;           ///< CSV a,b,order of all useful edges; empty: none
   std::string quadrilaterals_path;  ///< CSV s,u,t,v,delaunay; empty: none
+  bool census = false;              ///< count triangles and useful edges under every definition
   bool overwrite = false;
 };
 
@@ -34,19 +39,31 @@ struct TriangleOrders {
   std::array<std::size_t, kOrderDefinitions.size()> orders{};  ///< as kOrderDefinitions; valid triangles only
 };
 
+/// How many triangles and useful edges there are of order at most `order`.
+struct CensusRow {
+  OrderDefinition definition = OrderDefinition::Std;
+  std::size_t order = 0;
+  std::size_t triangles = 0;
+  std::size_t edges = 0;
+  std::size_t unknown_edges = 0;  ///< of which it is not known whether they are useful at the largest order
+};
+
 struct OrderResult {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t constraint_edges = 0;
-  std::size_t quadrilaterals = 0;  ///< counted where they were asked for
-  bool quadrilaterals_listed = false;
   std::string definition;
+  std::size_t max_order = 1;
+  /// Counts of what was listed.
+  std::optional<std::size_t> quadrilaterals, order_triangles, useful_edges, unknown_edges;
+  std::vector<CensusRow> census;       ///< by definition, then order
+  std::vector<std::string> not_taken;  ///< definitions that the census leaves out, and why
   std::vector<TriangleOrders> asked;
 };
 
 /// Triangulates the sources and answers. Ids are those of the ground: points in file order, a duplicate with
 /// its first, then line vertices, then crossings. Throws: Error{Usage} for an id out of range or repeated;
-/// what reading and triangulating throw.
+/// {SizeLimit} if a list has no method for so many vertices; what reading and triangulating throw.
 OrderResult order_points(const OrderConfig& config, Progress& progress);
 
 /// {"triangle", "valid", "orders"} for one triangle asked, an array for several, else counts.

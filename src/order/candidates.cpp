@@ -1,0 +1,285 @@
+// Candidate triangles, their edges, crossings and faces.
+//
+// 1. Edges of all triangles, sorted; a triangle with a side off the rim beyond which there is none goes,
+// until
+//    none goes. What remains of the edges is numbered.
+// 2. An edge that is none of the ground is followed through the triangles of the ground that it crosses: the
+//    ground's edges on the way cross it; edges that pass one triangle of the ground are tested against each
+//    other. Two edges that cross have their common point in a triangle of the ground that both pass, or on an
+//    edge that both cross.
+// 3. Faces: triangles that share a free edge, and those with edges that cross, are of one face. Conversely
+// the
+//    triangles of one triangulation of a face hang together over free edges, and any other candidate of the
+//    face overlaps one of them, so it has a free edge in common with it or one that crosses one of its edges.
+#include "order/candidates.hpp"
+
+#include "base/parallel.hpp"
+#include "base/union_find.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/geometry/predicates.hpp>
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <string>
+
+namespace thalweg::detail {
+
+namespace {
+
+constexpr std::size_t kBlock = 4096;
+constexpr std::uint32_t kNone = 0xffffffffU;
+// Of pairs of edges that cross; a pair takes 16 bytes, and as much again while it is sorted.
+constexpr std::size_t kMostCrossings = 20'000'000;
+
+[[noreturn]] void refuse_crossings(std::size_t edges) {
+  throw Error(ErrorCode::SizeLimit, "more than " + std::to_string(kMostCrossings) + " pairs of the " +
+                                        std::to_string(edges) +
+                                        " edges of triangles of that order cross each other; take a smaller "
+                                        "order, fewer vertices, or a stronger definition");
+}
+
+Rows rows_of(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, std::size_t count) {
+  tbb::parallel_sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  Rows rows;
+  rows.first.assign(count + 1, 0);
+  for (const auto& [row, item] : pairs) ++rows.first[row + 1];
+  std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
+  rows.items.reserve(pairs.size());
+  for (const auto& [row, item] : pairs) rows.items.push_back(item);
+  return rows;
+}
+
+class Finder {
+ public:
+  Finder(const Tin& ground, std::vector<OrderTriangle> triangles, const Progress& progress)
+      : ground_(ground), progress_(progress) {
+    found_.triangles = std::move(triangles);
+  }
+
+  Candidates find() {
+    number_edges();
+    if (drop_dead_ends()) number_edges();
+    find_crossings();
+    find_faces();
+    return std::move(found_);
+  }
+
+ private:
+  void number_edges();
+  bool drop_dead_ends();
+  void find_crossings();
+  void find_faces();
+  template <class Visit>
+  void follow(const CandidateEdge& edge, const Visit& visit) const;
+  [[nodiscard]] bool cross(std::uint32_t e, std::uint32_t f) const;
+  [[nodiscard]] std::uint32_t number_of(VertexId a, VertexId b) const;
+
+  const Tin& ground_;
+  const Progress& progress_;
+  Candidates found_;
+};
+
+void Finder::number_edges() {
+  std::vector<std::pair<VertexId, VertexId>> ends;
+  ends.reserve(3 * found_.triangles.size());
+  for (const OrderTriangle& t : found_.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) ends.push_back(std::minmax(t.corners[i], t.corners[(i + 1) % 3]));
+  }
+  tbb::parallel_sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  found_.edges.assign(ends.size(), {});
+  for_each_block(ends.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto [a, b] = ends[e];
+      const HalfedgeId there = ground_.find_halfedge(a, b);
+      found_.edges[e] = {a, b, there.valid() ? there : ground_.find_halfedge(b, a), false};
+    }
+  });
+  found_.sides.resize(found_.triangles.size());
+  for_each_block(found_.triangles.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& corners = found_.triangles[t].corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const VertexId from = corners[i], to = corners[(i + 1) % 3];
+        found_.sides[t][i] = 2 * number_of(std::min(from, to), std::max(from, to)) + (to < from ? 1 : 0);
+      }
+    }
+  });
+}
+
+std::uint32_t Finder::number_of(VertexId a, VertexId b) const {
+  const auto at = std::lower_bound(found_.edges.begin(), found_.edges.end(), std::pair(a, b),
+                                   [](const CandidateEdge& edge, const std::pair<VertexId, VertexId>& ends) {
+                                     return std::pair(edge.a, edge.b) < ends;
+                                   });
+  const bool there = at != found_.edges.end() && at->a == a && at->b == b;
+  return there ? static_cast<std::uint32_t>(at - found_.edges.begin()) : kNone;
+}
+
+bool Finder::drop_dead_ends() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> at_side;
+  at_side.reserve(3 * found_.triangles.size());
+  for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
+    for (const std::uint32_t side : found_.sides[t]) at_side.emplace_back(side, t);
+  }
+  const Rows on = rows_of(at_side, 2 * found_.edges.size());
+  std::vector<std::uint32_t> alive(on.size());
+  for (std::size_t side = 0; side < on.size(); ++side) {
+    alive[side] = static_cast<std::uint32_t>(on.row(side).size());
+  }
+  std::vector<bool> dead(found_.triangles.size(), false);
+  std::vector<std::uint32_t> lonely;  // sides whose triangles all have nothing beyond
+  const auto needs_both = [&](std::uint32_t side) {
+    const HalfedgeId h = found_.edges[side / 2].ground;
+    return !h.valid() || !ground_.on_rim(h);
+  };
+  for (std::uint32_t side = 0; side < on.size(); ++side) {
+    if (alive[side] > 0 && alive[side ^ 1U] == 0 && needs_both(side)) lonely.push_back(side);
+  }
+  bool any = false;
+  while (!lonely.empty()) {
+    const std::uint32_t side = lonely.back();
+    lonely.pop_back();
+    for (const std::uint32_t t : on.row(side)) {
+      if (dead[t]) continue;
+      dead[t] = any = true;
+      for (const std::uint32_t s : found_.sides[t]) {
+        if (--alive[s] == 0 && alive[s ^ 1U] > 0 && needs_both(s)) lonely.push_back(s ^ 1U);
+      }
+    }
+  }
+  if (!any) return false;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < dead.size(); ++t) {
+    if (!dead[t]) found_.triangles[kept++] = found_.triangles[t];
+  }
+  found_.triangles.resize(kept);
+  return true;
+}
+
+// Visits the halfedges of the ground that the edge crosses, in order, each in the triangle that it leaves.
+template <class Visit>
+void Finder::follow(const CandidateEdge& edge, const Visit& visit) const {
+  const Point2 from = ground_.point(edge.a), to = ground_.point(edge.b);
+  HalfedgeId crossed;
+  for (const HalfedgeId h : ground_.outgoing(edge.a)) {
+    if (orientation(from, ground_.point(ground_.target(h)), to) > 0 &&
+        orientation(from, to, ground_.point(ground_.apex(h))) > 0) {
+      crossed = Tin::next(h);
+      break;
+    }
+  }
+  while (crossed.valid()) {
+    visit(crossed);
+    const HalfedgeId entry = ground_.twin(crossed);
+    if (!entry.valid()) return;
+    const VertexId apex = ground_.apex(entry);
+    if (apex == edge.b) {
+      visit(entry);  // the last triangle: the edge ends at its apex
+      return;
+    }
+    const int side = orientation(from, to, ground_.point(apex));
+    crossed = side > 0 ? Tin::next(entry) : Tin::previous(entry);
+  }
+}
+
+bool Finder::cross(std::uint32_t e, std::uint32_t f) const {
+  const CandidateEdge& one = found_.edges[e];
+  const CandidateEdge& other = found_.edges[f];
+  if (one.a == other.a || one.a == other.b || one.b == other.a || one.b == other.b) return false;
+  return cross_properly(ground_.point(one.a), ground_.point(one.b), ground_.point(other.a),
+                        ground_.point(other.b));
+}
+
+void Finder::find_crossings() {
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  const std::size_t edges = found_.edges.size();
+  const std::size_t blocks = edges / kBlock + 1;
+  std::vector<Pairs> passes(blocks), crossed(blocks);  // (triangle of the ground, edge); (edge, edge)
+  for_each_block(edges, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      if (found_.edges[e].ground.valid()) continue;
+      const auto number = static_cast<std::uint32_t>(e);
+      follow(found_.edges[e], [&](HalfedgeId h) {
+        passes[begin / kBlock].emplace_back(Tin::triangle_of(h).value(), number);
+        const auto [a, b] = std::minmax({ground_.origin(h), ground_.target(h)});
+        const std::uint32_t other = number_of(a, b);
+        if (other == kNone) return;
+        crossed[begin / kBlock].emplace_back(number, other);
+        crossed[begin / kBlock].emplace_back(other, number);
+      });
+    }
+  });
+  const auto joined = [](std::vector<Pairs>& parts) {
+    Pairs all;
+    for (Pairs& part : parts) {
+      all.insert(all.end(), part.begin(), part.end());
+      part = {};
+    }
+    return all;
+  };
+  Pairs all_passes = joined(passes);
+  const Rows passing = rows_of(all_passes, ground_.triangle_count());
+  all_passes = {};
+  crossed.resize(std::max(blocks, passing.size() / kBlock + 1));
+  std::atomic<std::size_t> pairs{0};
+  for_each_block(passing.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto here = passing.row(t);
+      const std::size_t before = crossed[begin / kBlock].size();
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        for (std::size_t j = i + 1; j < here.size(); ++j) {
+          if (!cross(here[i], here[j])) continue;
+          crossed[begin / kBlock].emplace_back(here[i], here[j]);
+          crossed[begin / kBlock].emplace_back(here[j], here[i]);
+        }
+      }
+      pairs += (crossed[begin / kBlock].size() - before) / 2;
+      if (pairs > kMostCrossings) refuse_crossings(edges);
+    }
+  });
+  Pairs all_crossed = joined(crossed);
+  found_.crossings = rows_of(all_crossed, edges);
+  for (std::size_t e = 0; e < edges; ++e) found_.edges[e].free = !found_.crossings.row(e).empty();
+}
+
+void Finder::find_faces() {
+  const auto edges = static_cast<std::uint32_t>(found_.edges.size());
+  UnionFind same(edges);
+  for (std::uint32_t e = 0; e < edges; ++e) {
+    for (const std::uint32_t f : found_.crossings.row(e)) same.unite(e, f);
+  }
+  std::vector<std::uint32_t> some_free(found_.triangles.size(), kNone);
+  for (std::size_t t = 0; t < found_.triangles.size(); ++t) {
+    for (const std::uint32_t side : found_.sides[t]) {
+      const std::uint32_t e = side / 2;
+      if (!found_.edges[e].free) continue;
+      if (some_free[t] != kNone) same.unite(e, some_free[t]);
+      some_free[t] = e;
+    }
+  }
+  std::vector<std::uint32_t> face_of(edges, kNone);
+  std::uint32_t count = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
+  for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
+    if (some_free[t] == kNone) continue;
+    std::uint32_t& face = face_of[same.find(some_free[t])];
+    if (face == kNone) face = count++;
+    members.emplace_back(face, t);
+  }
+  found_.faces = rows_of(members, count);
+}
+
+}  // namespace
+
+Candidates find_candidates(const Tin& ground, std::vector<OrderTriangle> triangles,
+                           const Progress& progress) {
+  return Finder(ground, std::move(triangles), progress).find();
+}
+
+}  // namespace thalweg::detail

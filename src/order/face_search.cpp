@@ -1,0 +1,141 @@
+// Triangulations of a face, front by front.
+//
+// 1. A front is the set of directed edges that have uncovered ground of the face on their left and none that
+//    is uncovered, or no ground of the face, on their right. At first: the sides of the face. Its lowest edge
+//    has to be covered by some candidate on its left, one side of which it is. Sides that are in the front
+//    leave it, others enter it reversed; a candidate fits if these are free, not in the front already, and
+//    cross none of it: it has no vertex inside, so it then lies in what is uncovered.
+// 2. What is covered follows from the front, and so do the number of triangles that cover it and what can
+//    follow: fronts are the nodes of a graph without cycles, whose paths from the first to the empty one are
+//    the face's triangulations, each once. The smallest largest order of a path through a node or an arc
+//    comes from one sweep forwards and one backwards.
+#include "order/face_search.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace thalweg::detail {
+
+namespace {
+
+using Front = std::vector<std::uint32_t>;  // directed edges, ascending
+
+struct Arc {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t triangle = 0;  // index in the face
+};
+
+class FaceSearch {
+ public:
+  FaceSearch(const Candidates& candidates, std::size_t face)
+      : candidates_(candidates), triangles_(candidates.faces.row(face)) {
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+      for (const std::uint32_t side : candidates_.sides[triangles_[i]]) on_side_.emplace_back(side, i);
+    }
+    std::sort(on_side_.begin(), on_side_.end());
+  }
+
+  std::optional<FaceOrders> run(std::size_t work_limit);
+
+ private:
+  [[nodiscard]] Front first_front() const;
+  [[nodiscard]] std::optional<Front> cover(const Front& front, std::uint32_t triangle) const;
+  [[nodiscard]] FaceOrders sweep(std::size_t fronts, std::uint32_t last, const std::vector<Arc>& arcs) const;
+  [[nodiscard]] std::uint32_t order(std::uint32_t i) const {
+    return candidates_.triangles[triangles_[i]].order;
+  }
+
+  const Candidates& candidates_;
+  std::span<const std::uint32_t> triangles_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> on_side_;  // (side, index in the face), sorted
+};
+
+Front FaceSearch::first_front() const {
+  Front front;
+  for (const auto& [side, triangle] : on_side_) {
+    if (candidates_.edges[side / 2].free) continue;
+    if (front.empty() || front.back() != side) front.push_back(side);
+  }
+  return front;
+}
+
+std::optional<Front> FaceSearch::cover(const Front& front, std::uint32_t triangle) const {
+  Front next = front;
+  for (const std::uint32_t side : candidates_.sides[triangles_[triangle]]) {
+    const auto at = std::lower_bound(next.begin(), next.end(), side);
+    if (at != next.end() && *at == side) {
+      next.erase(at);
+      continue;
+    }
+    if (!candidates_.edges[side / 2].free || std::binary_search(front.begin(), front.end(), side ^ 1U)) {
+      return std::nullopt;
+    }
+    for (const std::uint32_t crossed : candidates_.crossings.row(side / 2)) {
+      const auto there = std::lower_bound(front.begin(), front.end(), 2 * crossed);
+      if (there != front.end() && *there / 2 == crossed) return std::nullopt;
+    }
+    next.insert(std::lower_bound(next.begin(), next.end(), side ^ 1U), side ^ 1U);
+  }
+  return next;
+}
+
+std::optional<FaceOrders> FaceSearch::run(std::size_t work_limit) {
+  std::map<Front, std::uint32_t> number;
+  std::vector<const Front*> fronts;
+  std::vector<Arc> arcs;
+  std::size_t work = 0;
+  const auto number_of = [&](Front&& front) {
+    const auto [at, fresh] = number.try_emplace(std::move(front), static_cast<std::uint32_t>(fronts.size()));
+    if (fresh) {
+      fronts.push_back(&at->first);
+      work += at->first.size() + 1;
+    }
+    return at->second;
+  };
+  number_of(first_front());
+  // Each front is reached by as many triangles on every path, so those that are found first have fewer.
+  for (std::uint32_t f = 0; f < fronts.size(); ++f) {
+    if (work > work_limit) return std::nullopt;
+    if (fronts[f]->empty()) continue;
+    const std::uint32_t lowest = fronts[f]->front();
+    auto at = std::lower_bound(on_side_.begin(), on_side_.end(), std::pair(lowest, std::uint32_t{0}));
+    for (; at != on_side_.end() && at->first == lowest; ++at) {
+      if (auto next = cover(*fronts[f], at->second)) {
+        arcs.push_back({f, number_of(std::move(*next)), at->second});
+      }
+    }
+  }
+  const auto last = number.find(Front());
+  if (last == number.end())
+    return FaceOrders{FaceOrders::kUnreachable, Front(triangles_.size(), FaceOrders::kUnreachable)};
+  return sweep(fronts.size(), last->second, arcs);
+}
+
+FaceOrders FaceSearch::sweep(std::size_t fronts, std::uint32_t last, const std::vector<Arc>& arcs) const {
+  constexpr std::uint32_t kUnreachable = FaceOrders::kUnreachable;
+  std::vector<std::uint32_t> before(fronts, kUnreachable), behind(fronts, kUnreachable);
+  before[0] = 0;
+  behind[last] = 0;
+  for (const Arc& arc : arcs) {
+    before[arc.to] = std::min(before[arc.to], std::max(before[arc.from], order(arc.triangle)));
+  }
+  for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
+    behind[arc->from] = std::min(behind[arc->from], std::max(behind[arc->to], order(arc->triangle)));
+  }
+  FaceOrders orders{behind[0], Front(triangles_.size(), kUnreachable)};
+  for (const Arc& arc : arcs) {
+    std::uint32_t& least = orders.with_triangle[arc.triangle];
+    least = std::min(least, std::max({before[arc.from], order(arc.triangle), behind[arc.to]}));
+  }
+  return orders;
+}
+
+}  // namespace
+
+std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
+                                      std::size_t work_limit) {
+  return FaceSearch(candidates, face).run(work_limit);
+}
+
+}  // namespace thalweg::detail

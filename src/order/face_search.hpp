@@ -1,0 +1,27 @@
+#pragma once
+
+/// All triangulations of one face by candidate triangles, without listing them.
+
+#include "order/candidates.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace thalweg::detail {
+
+/// The smallest order of a triangulation of the face, and of one that holds each of its triangles: the
+/// largest order of its triangles. `unreachable` where there is none.
+struct FaceOrders {
+  static constexpr std::uint32_t kUnreachable = 0xffffffffU;
+  std::uint32_t any = kUnreachable;
+  std::vector<std::uint32_t> with_triangle;  ///< as the face's triangles
+};
+
+/// None if the fronts that come up have more than `work_limit` edges together: a count, so the answer is the
+/// same everywhere.
+std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
+                                      std::size_t work_limit);
+
+}  // namespace thalweg::detail
