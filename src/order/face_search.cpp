@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 namespace thalweg::detail {
 
@@ -120,8 +121,8 @@ FaceOrders FaceSearch::sweep(std::size_t fronts, std::uint32_t last, const std::
   for (const Arc& arc : arcs) {
     before[arc.to] = std::min(before[arc.to], std::max(before[arc.from], order(arc.triangle)));
   }
-  for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
-    behind[arc->from] = std::min(behind[arc->from], std::max(behind[arc->to], order(arc->triangle)));
+  for (const Arc& arc : std::views::reverse(arcs)) {
+    behind[arc.from] = std::min(behind[arc.from], std::max(behind[arc.to], order(arc.triangle)));
   }
   FaceOrders orders{behind[0], Front(triangles_.size(), kUnreachable)};
   for (const Arc& arc : arcs) {
