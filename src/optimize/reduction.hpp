@@ -2,8 +2,8 @@
 
 /// Labels that every optimum, or one, must have, found in near-linear time.
 
-#include "optimize/labelling.hpp"
 #include "base/union_find.hpp"
+#include "optimize/labelling.hpp"
 
 #include <thalweg/base/progress.hpp>
 

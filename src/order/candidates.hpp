@@ -47,9 +47,9 @@ struct Candidates {
   Rows faces;      ///< for each face with a free edge: its candidate triangles, ascending
 };
 
-/// Pre: `triangles` are valid, sorted, counter-clockwise. Throws: Error{SizeLimit} if so many edges cross each
-/// other that memory would not do; {Cancelled}.
-/// Complexity: sorting; the faces of the ground that edges cross, and pairs of edges that meet in one face.
+/// Pre: `triangles` are valid, sorted, counter-clockwise. Throws: Error{SizeLimit} if so many edges cross
+/// each other that memory would not do; {Cancelled}. Complexity: sorting; the faces of the ground that edges
+/// cross, and pairs of edges that meet in one face.
 Candidates find_candidates(const Tin& ground, std::vector<OrderTriangle> triangles, const Progress& progress);
 
 }  // namespace thalweg::detail

@@ -21,7 +21,6 @@ struct FaceOrders {
 
 /// None if the fronts that come up have more than `work_limit` edges together: a count, so the answer is the
 /// same everywhere.
-std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
-                                      std::size_t work_limit);
+std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face, std::size_t work_limit);
 
 }  // namespace thalweg::detail

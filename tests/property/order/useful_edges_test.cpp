@@ -68,8 +68,8 @@ TEST(UsefulEdges, AreNoneOtherByGreedyTriangulations) {
     const oracle::Enumeration all = enumerate(oracle);
     const Library library(oracle);
     for (const OrderDefinition definition : kOrderDefinitions) {
-      const auto found = useful_by_library(
-          library, {.definition = definition, .max_order = kLargestOrder, .work_limit = 0});
+      const auto found =
+          useful_by_library(library, {.definition = definition, .max_order = kLargestOrder, .work_limit = 0});
       const auto expected = useful_by_enumeration(all, definition);
       for (const auto& [edge, order] : expected) {
         ASSERT_TRUE(found.contains(edge)) << definition_name(definition);
