@@ -5,7 +5,9 @@
 //    lines give.
 // 2. Vertices that only soft lines have take the height of the base: the triangulation of all points and hard
 //    lines, drawn by themselves.
-// 3. Triangulate. In polygon mode flood the triangles for those inside, and keep these and their vertices.
+// 3. Triangulate, under ids along a curve if that was asked for: what is close in the plane is then close in
+//    memory, for all that follows. In polygon mode flood the triangles for those inside, and keep these and
+//    their vertices.
 // That
 //    equals dropping all that is outside first, because no empty circle has to heed what is behind a
 //    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
@@ -15,6 +17,7 @@
 #include "merge.hpp"
 #include "provenance.hpp"
 #include "region.hpp"
+#include "spatial_order.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/ground.hpp>
@@ -26,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace thalweg {
@@ -130,6 +134,33 @@ void keep_vertices(Plan& plan, const std::vector<bool>& keep) {
   for (std::uint32_t& now : plan.now_of) now = now == VertexId::kInvalid ? now : number[now];
 }
 
+// Numbers all vertices by a space-filling curve.
+void sort_along_curve(Plan& plan, const Progress& progress) {
+  const std::vector<std::uint32_t> order = hilbert_order(plan.xy, progress);
+  const auto sorted = [&](const auto& values) {
+    auto moved = values;
+    for (std::size_t v = 0; v < order.size(); ++v) moved[v] = values[order[v]];
+    return moved;
+  };
+  plan.xy = sorted(plan.xy);
+  plan.z = sorted(plan.z);
+  plan.origins = sorted(plan.origins);
+  std::vector<std::uint32_t> number(order.size());
+  for (std::size_t v = 0; v < order.size(); ++v) number[order[v]] = static_cast<std::uint32_t>(v);
+  for (std::uint32_t& now : plan.now_of) now = now == VertexId::kInvalid ? now : number[now];
+}
+
+// For each vertex that is left its rank among these in the order of the drawing.
+std::vector<VertexId> numbers_in_order(std::span<const std::uint32_t> now_of) {
+  std::vector<VertexId> number(now_of.size());
+  std::size_t count = 0;
+  for (const std::uint32_t now : now_of) {
+    if (now != VertexId::kInvalid) number[now] = VertexId{count++};
+  }
+  number.resize(count);
+  return number;
+}
+
 [[noreturn]] void refuse_empty_region() {
   throw Error(ErrorCode::EmptyInput, "no ground lies inside of the boundary and outside of the holes");
 }
@@ -150,7 +181,10 @@ void drop_far_points(const Survey& survey, const Drawing& drawing, Plan& plan) {
 
 Tin keep_region(const Survey& survey, const Drawing& drawing, const Tin& hull, Plan& plan) {
   std::vector<RingEdge> rings = ring_edges(survey, drawing);
-  for (RingEdge& edge : rings) edge = {plan.now_of[edge.low], plan.now_of[edge.high], edge.toggles};
+  for (RingEdge& edge : rings) {
+    std::tie(edge.low, edge.high) = std::minmax(plan.now_of[edge.low], plan.now_of[edge.high]);
+  }
+  std::ranges::sort(rings, {}, [](const RingEdge& edge) { return std::pair(edge.low, edge.high); });
   const std::vector<bool> inside = inside_region(survey, hull, rings);
   std::vector<bool> keep(plan.xy.size());
   std::vector<Triangle> triangles;
@@ -202,6 +236,7 @@ Ground build_ground(const Survey& survey, const GroundOptions& options, Progress
   plan.now_of.resize(plan.xy.size());
   for (std::size_t v = 0; v < plan.now_of.size(); ++v) plan.now_of[v] = static_cast<std::uint32_t>(v);
   if (ground.mode == GroundMode::Polygon) drop_far_points(survey, drawing, plan);
+  if (options.numbering == Numbering::AlongCurve) sort_along_curve(plan, progress);
   for (ConstraintEdge& edge : edges) {
     edge.a = VertexId{plan.now_of[edge.a.index()]};
     edge.b = VertexId{plan.now_of[edge.b.index()]};
@@ -213,6 +248,7 @@ Ground build_ground(const Survey& survey, const GroundOptions& options, Progress
     ground.tin = keep_region(survey, drawing, ground.tin, plan);
   }
   ground.origins = std::move(plan.origins);
+  if (options.numbering == Numbering::AlongCurve) ground.number = numbers_in_order(plan.now_of);
   ground.point_vertices.reserve(drawing.vertices.of_point.size());
   for (const std::uint32_t v : drawing.vertices.of_point) {
     const std::uint32_t now = plan.now_of[v];

@@ -67,7 +67,7 @@ void Tin::sort_triangles() {
   triangles_ = std::move(sorted);
 }
 
-void Tin::link_halfedges() {
+void Tin::list_fans() {
   const std::size_t count = halfedge_count();
   first_outgoing_.assign(points_.size() + 1, 0);
   for (const Triangle& t : triangles_) {
@@ -79,14 +79,15 @@ void Tin::link_halfedges() {
   for (std::size_t h = 0; h < count; ++h) outgoing_[fill[origin(HalfedgeId{h}).index()]++] = HalfedgeId{h};
 
   for (std::size_t v = 0; v < points_.size(); ++v) {
-    if (first_outgoing_[v + 1] - first_outgoing_[v] <= kFewEdges) continue;
-    std::sort(outgoing_.begin() + first_outgoing_[v], outgoing_.begin() + first_outgoing_[v + 1],
-              [&](HalfedgeId g, HalfedgeId h) { return std::pair(target(g), g) < std::pair(target(h), h); });
+    sort_large_fan({outgoing_.begin() + first_outgoing_[v], outgoing_.begin() + first_outgoing_[v + 1]});
   }
+}
 
+void Tin::link_halfedges() {
+  list_fans();
   // The triangles around a vertex hold all halfedges that leave it and all that reach it, so a small fan
   // finds its own twins without a look at others.
-  twins_.resize(count);
+  twins_.resize(halfedge_count());
   std::atomic<std::size_t> rim = 0;
   std::atomic<std::uint32_t> repeated = HalfedgeId::kInvalid;  // the smallest one, whatever thread finds it
   const auto report_repeated = [&](HalfedgeId h) {
@@ -135,7 +136,13 @@ void Tin::link_halfedges() {
                                            std::to_string(origin(bad).value()) + ", " +
                                            std::to_string(target(bad).value()));
   }
-  edge_count_ = (count + rim) / 2;
+  edge_count_ = (halfedge_count() + rim) / 2;
+}
+
+void Tin::sort_large_fan(std::span<HalfedgeId> fan) const {
+  if (fan.size() <= kFewEdges) return;
+  std::sort(fan.begin(), fan.end(),
+            [&](HalfedgeId g, HalfedgeId h) { return std::pair(target(g), g) < std::pair(target(h), h); });
 }
 
 void Tin::mark_constraints(std::span<const ConstraintEdge> constraints) {
@@ -225,6 +232,11 @@ Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep) {
           {tin.heights().begin(), tin.heights().end()},
           std::move(triangles),
           constraints};
+}
+
+Tin keep_triangles(Tin&& tin, const std::vector<bool>& keep) {
+  if (std::find(keep.begin(), keep.end(), false) == keep.end()) return std::move(tin);
+  return keep_triangles(std::as_const(tin), keep);
 }
 
 }  // namespace thalweg

@@ -3,7 +3,7 @@
 // 1. Reserve the outputs, read the sources in one CRS.
 // 2. A geographic survey: points exactly on a line become its vertices, pieces that bend are densified, and
 //    everything is projected to the metric plane. What is written back are the coordinates that came in.
-// 3. Node and triangulate: the ground.
+// 3. Node and triangulate: the ground, with ids along a curve until the outputs are written.
 // 4. Take from the surface what is outside of the data (nodata), rim triangles with long edges, and rim
 //    triangles that are flat or turned over as written. Vertices that lose all triangles are out; the ground
 //    is then that of the vertices that stay. (Every triangle that stays is constrained Delaunay among fewer
@@ -20,6 +20,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +39,17 @@ std::vector<std::uint8_t> sources_of(const Ground& ground) {
   std::transform(ground.origins.begin(), ground.origins.end(), sources.begin(),
                  [](const VertexOrigin& origin) { return static_cast<std::uint8_t>(origin.kind); });
   return sources;
+}
+
+/// The ranks of some numbers below `limit`, all different.
+std::vector<VertexId> ranks_of(std::span<const VertexId> numbers, std::size_t limit) {
+  std::vector<std::uint32_t> rank(limit, 0);
+  for (const VertexId number : numbers) rank[number.index()] = 1;
+  std::exclusive_scan(rank.begin(), rank.end(), rank.begin(), 0U);
+  std::vector<VertexId> ranks;
+  ranks.reserve(numbers.size());
+  for (const VertexId number : numbers) ranks.emplace_back(rank[number.index()]);
+  return ranks;
 }
 
 /// The terrain of the vertices that are in a kept triangle; ids close up in order.
@@ -61,7 +74,9 @@ Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
     if (!terrain.written.empty()) result.written.push_back(terrain.written[v]);
     if (!terrain.continuous.empty()) result.continuous.push_back(terrain.continuous[v]);
     result.vertex_source.push_back(terrain.vertex_source[v]);
+    result.number.push_back(terrain.number[v]);
   }
+  result.number = ranks_of(result.number, terrain.number.size());
   std::vector<Triangle> kept;
   for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
     if (!terrain.keep[t]) continue;
@@ -161,6 +176,7 @@ Report build(const BuildConfig& config, Progress& progress) {
   GroundOptions ground_options = config.ground;
   ground_options.snap = config.snap_m / plane.metres_per_unit();
   if (plane.projected()) ground_options.resolution = kGeographicResolutionM;
+  ground_options.numbering = Numbering::AlongCurve;
   Ground ground = build_ground(survey.survey, ground_options, progress);
   describe_input(read, ground, report);
   report.conflicts = std::move(ground.conflicts);
@@ -168,7 +184,9 @@ Report build(const BuildConfig& config, Progress& progress) {
     for (Conflict& conflict : report.conflicts) conflict.xy = plane.to_written(conflict.xy);
   }
 
-  Terrain terrain{.written = written_of(ground, survey, plane), .vertex_source = sources_of(ground)};
+  Terrain terrain{.written = written_of(ground, survey, plane),
+                  .vertex_source = sources_of(ground),
+                  .number = std::move(ground.number)};
   if (plane.projected()) terrain.continuous = plane.to_lonlat(terrain.written);
   terrain.mode = ground.mode;
   survey = {};
@@ -180,7 +198,8 @@ Report build(const BuildConfig& config, Progress& progress) {
   terrain = without_lonely_vertices(std::move(terrain), progress);
   report.tin.vertices_left_out = vertices - terrain.ground.vertex_count();
 
-  finish_run(terrain, {plane, read.crs, config.labelling, config.output, outputs, watch}, report, progress);
+  finish_run(std::move(terrain), {plane, read.crs, config.labelling, config.output, outputs, watch}, report,
+             progress);
   return report;
 }
 

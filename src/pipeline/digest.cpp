@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +21,9 @@ class Sha256 {
   Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
     EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
   }
-  void add(std::span<const double> numbers) {
-    EVP_DigestUpdate(context_.get(), numbers.data(), numbers.size_bytes());
+  template <std::size_t Count>
+  void add(const std::vector<std::array<double, Count>>& rows) {
+    EVP_DigestUpdate(context_.get(), rows.data(), rows.size() * sizeof(rows[0]));
   }
   std::string hexadecimal() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
@@ -41,23 +42,21 @@ class Sha256 {
 
 std::string digest_of(const Tin& tin, std::span<const Point2> written) {
   const std::span<const Point2> xy = written.empty() ? tin.points() : written;
-  std::vector<std::uint32_t> order(xy.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return xy[a] < xy[b]; });
-  std::vector<double> numbers;
-  numbers.reserve(3 * order.size());
-  for (const std::uint32_t v : order) numbers.insert(numbers.end(), {xy[v].x, xy[v].y, tin.heights()[v]});
+  std::vector<std::array<double, 3>> vertices(xy.size());
+  for (std::size_t v = 0; v < xy.size(); ++v) vertices[v] = {xy[v].x, xy[v].y, tin.heights()[v]};
+  tbb::parallel_sort(vertices.begin(), vertices.end());
   Sha256 digest;
-  digest.add(numbers);
+  digest.add(vertices);
 
   std::vector<std::pair<Point2, Point2>> edges;
   for (const ConstraintEdge& edge : tin.constraint_edges()) {
     edges.emplace_back(std::minmax(xy[edge.a.index()], xy[edge.b.index()]));
   }
   std::sort(edges.begin(), edges.end());
-  numbers.clear();
-  for (const auto& [low, high] : edges) numbers.insert(numbers.end(), {low.x, low.y, high.x, high.y});
-  digest.add(numbers);
+  std::vector<std::array<double, 4>> ends;
+  ends.reserve(edges.size());
+  for (const auto& [low, high] : edges) ends.push_back({low.x, low.y, high.x, high.y});
+  digest.add(ends);
   return digest.hexadecimal();
 }
 

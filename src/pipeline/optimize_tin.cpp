@@ -139,7 +139,8 @@ Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
   }
   progress.advance(1);
 
-  finish_run(terrain, {plane, crs, config.labelling, config.output, outputs, watch}, report, progress);
+  finish_run(std::move(terrain), {plane, crs, config.labelling, config.output, outputs, watch}, report,
+             progress);
   return report;
 }
 

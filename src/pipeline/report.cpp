@@ -128,6 +128,7 @@ std::string to_json(const Report& report) {
         {"triangulate", s.triangulate},
         {"orders", s.orders},
         {"optimize", s.optimize},
+        {"check", s.check},
         {"write", s.write},
         {"total", s.total}}},
       {"peak_memory_bytes", report.peak_memory_bytes},
@@ -197,8 +198,10 @@ std::string to_text(const Report& r) {
   const PhaseSeconds& s = r.timings_s;
   text += "Seconds\n";
   fmt::format_to(
-      out, "  read {:.2f}  triangulate {:.2f}  orders {:.2f}  optimize {:.2f}  write {:.2f}  total {:.2f}\n",
-      s.read, s.triangulate, s.orders, s.optimize, s.write, s.total);
+      out,
+      "  read {:.2f}  triangulate {:.2f}  orders {:.2f}  optimize {:.2f}  check {:.2f}  write {:.2f}"
+      "  total {:.2f}\n",
+      s.read, s.triangulate, s.orders, s.optimize, s.check, s.write, s.total);
   fmt::format_to(out, "  peak memory {:.0f} MiB\n", static_cast<double>(r.peak_memory_bytes) / 0x1p20);
   for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", note);
   return text;

@@ -7,7 +7,7 @@
 // 2. The optimiser labels them; the flipped TIN is checked in the plane and in the written coordinates, and
 // its
 //    pits are counted again by plain code, before anything is written.
-// 3. All files are written aside and renamed together.
+// 3. The outcome gets the ids of the outputs; all files are written aside and renamed together.
 #include "pipeline/surface.hpp"
 
 #include "pipeline/digest.hpp"
@@ -30,6 +30,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace thalweg {
@@ -92,9 +93,21 @@ std::vector<Quadrilateral> on_surface(std::span<const Quadrilateral> found, cons
   return kept;
 }
 
-void refuse_violations(const Tin& tin, std::span<const Point2> written) {
-  const std::vector<Violation> violations = validate(tin, written);
+template <class Value>
+std::vector<Value> renumbered(std::span<const Value> values, std::span<const VertexId> number) {
+  std::vector<Value> moved(values.size());
+  for (std::size_t v = 0; v < values.size(); ++v) moved[number[v].index()] = values[v];
+  return moved;
+}
+
+// Where something is wrong it is looked for again under the ids that the user knows.
+void refuse_violations(const Tin& tin, const Terrain& terrain, const Progress& progress) {
+  std::vector<Violation> violations = validate(tin, terrain.continuous);
   if (violations.empty()) return;
+  if (!terrain.number.empty()) {
+    violations = validate(tin.renumbered(terrain.number, progress),
+                          renumbered<Point2>(terrain.continuous, terrain.number));
+  }
   throw Error(ErrorCode::InvalidTin, "the TIN breaks law " + std::to_string(violations.front().code) + ": " +
                                          violations.front().what + " (" + std::to_string(violations.size()) +
                                          " violations); nothing was written");
@@ -124,10 +137,11 @@ std::size_t peak_memory_bytes() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-std::vector<std::uint8_t> interior_pits(const PitSummary& pits) {
-  std::vector<std::uint8_t> flags(pits.is_pit.size());
-  std::transform(pits.is_pit.begin(), pits.is_pit.end(), flags.begin(),
-                 [](std::uint8_t kind) { return static_cast<std::uint8_t>(kind == 1 ? 1 : 0); });
+std::vector<std::uint8_t> interior_pits(std::span<const std::uint8_t> kinds) {
+  std::vector<std::uint8_t> flags(kinds.size());
+  std::transform(kinds.begin(), kinds.end(), flags.begin(), [](std::uint8_t kind) {
+    return static_cast<std::uint8_t>(kind == static_cast<std::uint8_t>(PitKind::Interior) ? 1 : 0);
+  });
   return flags;
 }
 
@@ -191,11 +205,11 @@ struct Labelled {
   std::vector<std::array<VertexId, 2>> new_diagonals;
 };
 
-Labelled choose_diagonals(const Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
+// Takes the ground out of the terrain.
+Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
                           Progress& progress) {
   Labelled labelled;
-  labelled.delaunay = keep_triangles(terrain.ground, terrain.keep);
-  if (labelled.delaunay.triangle_count() == 0) {
+  if (std::find(terrain.keep.begin(), terrain.keep.end(), true) == terrain.keep.end()) {
     throw Error(ErrorCode::EmptyInput,
                 "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
   }
@@ -208,6 +222,7 @@ Labelled choose_diagonals(const Terrain& terrain, const RunContext& run, PhaseSe
                             progress),
         terrain);
   }
+  labelled.delaunay = keep_triangles(std::move(terrain.ground), terrain.keep);
   progress.advance(1);
   seconds.orders = run.watch.lap();
 
@@ -244,14 +259,50 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   report.criteria = describe_criteria(labelled.result);
 }
 
-std::vector<std::uint16_t> orders_of(const Labelled& labelled) {
-  std::vector<std::uint16_t> orders(labelled.tin.triangle_count(), 0);
-  for (const auto& [a, b] : labelled.new_diagonals) {
-    for (const HalfedgeId h : {labelled.tin.find_halfedge(a, b), labelled.tin.find_halfedge(b, a)}) {
+// What is written, under the ids of the outputs.
+struct Outcome {
+  Tin tin;
+  std::vector<Point2> written;
+  std::vector<std::uint8_t> vertex_source;
+  std::vector<std::uint8_t> is_pit_before, is_pit;
+  std::vector<std::array<VertexId, 2>> new_diagonals;
+  std::vector<std::uint16_t> orders;
+};
+
+std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<VertexId, 2>> new_diagonals) {
+  std::vector<std::uint16_t> orders(tin.triangle_count(), 0);
+  for (const auto& [a, b] : new_diagonals) {
+    for (const HalfedgeId h : {tin.find_halfedge(a, b), tin.find_halfedge(b, a)}) {
       orders[Tin::triangle_of(h).index()] = 1;
     }
   }
   return orders;
+}
+
+Outcome outcome_of(Labelled labelled, Terrain terrain, PitSummary before, PitSummary after,
+                   const Progress& progress) {
+  Outcome outcome{.tin = std::move(labelled.tin),
+                  .written = std::move(terrain.written),
+                  .vertex_source = std::move(terrain.vertex_source),
+                  .is_pit_before = std::move(before.is_pit),
+                  .is_pit = std::move(after.is_pit),
+                  .new_diagonals = std::move(labelled.new_diagonals),
+                  .orders = {}};
+  labelled.delaunay = {};
+  labelled.quadrilaterals = {};
+  if (const std::span<const VertexId> number = terrain.number; !number.empty()) {
+    outcome.tin = outcome.tin.renumbered(number, progress);
+    outcome.written = renumbered<Point2>(outcome.written, number);
+    outcome.vertex_source = renumbered<std::uint8_t>(outcome.vertex_source, number);
+    outcome.is_pit_before = renumbered<std::uint8_t>(outcome.is_pit_before, number);
+    outcome.is_pit = renumbered<std::uint8_t>(outcome.is_pit, number);
+    for (auto& [a, b] : outcome.new_diagonals) {
+      std::tie(a, b) = std::minmax(number[a.index()], number[b.index()]);
+    }
+    std::sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
+  }
+  outcome.orders = orders_of(outcome.tin, outcome.new_diagonals);
+  return outcome;
 }
 
 void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
@@ -272,52 +323,58 @@ void write_problem(const Labelled& labelled, const RunContext& run, Progress& pr
   }
 }
 
-void draw_result(const Labelled& labelled, const PitSummary& before, const PitSummary& after,
-                 const RunContext& run, Progress& progress) {
-  const std::vector<std::uint8_t> pits_before = interior_pits(before);
-  const std::vector<std::uint8_t> pits_after = interior_pits(after);
-  const PictureScene scene{.tin = labelled.tin,
+void draw_result(const Outcome& outcome, const RunContext& run, Progress& progress) {
+  const std::vector<std::uint8_t> pits_before = interior_pits(outcome.is_pit_before);
+  const std::vector<std::uint8_t> pits_after = interior_pits(outcome.is_pit);
+  const PictureScene scene{.tin = outcome.tin,
                            .horizontal_metres_per_unit = run.plane.metres_per_unit(),
                            .vertical_metres_per_unit = run.plane.vertical_metres_per_unit(),
                            .pits_before = pits_before,
                            .pits_after = pits_after,
-                           .flipped = labelled.new_diagonals,
+                           .flipped = outcome.new_diagonals,
                            .title = std::filesystem::path(run.output.path).filename().string()};
   draw_picture(run.outputs.picture, std::filesystem::path(run.output.picture_path).extension().string(),
                scene, progress);
 }
 
+// Writes the TIN and the picture aside.
+void write_outcome(const Outcome& outcome, const RunContext& run, std::span<const Conflict> conflicts,
+                   Progress& progress) {
+  const TinView view{.tin = outcome.tin,
+                     .written_xy = outcome.written,
+                     .crs_wkt = run.crs.wkt,
+                     .crs_authority = run.crs.authority,
+                     .is_pit = outcome.is_pit,
+                     .vertex_source = outcome.vertex_source,
+                     .triangle_orders = outcome.orders,
+                     .conflicts = conflicts};
+  write_tin(run.output.path, view,
+            {.format = run.output.format, .creation_options = run.output.creation_options},
+            run.outputs.pending, run.output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
+  if (!run.outputs.picture.empty()) draw_result(outcome, run, progress);
+}
+
 }  // namespace
 
-void finish_run(const Terrain& terrain, const RunContext& run, Report& report, Progress& progress) {
-  const Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
+void finish_run(Terrain terrain, const RunContext& run, Report& report, Progress& progress) {
+  Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
 
   progress.start_phase("check");
-  refuse_violations(labelled.tin, terrain.continuous);
-  const PitSummary pits_before = find_pits(labelled.delaunay);
-  const PitSummary pits_after = find_pits(labelled.tin);
+  refuse_violations(labelled.tin, terrain, progress);
+  PitSummary pits_before = find_pits(labelled.delaunay);
+  PitSummary pits_after = find_pits(labelled.tin);
   check_pit_count(labelled.result, pits_after);
   describe_result(labelled, terrain, run, report);
   report.pits_delaunay = describe_pits(pits_before);
   report.pits_result = describe_pits(pits_after);
   progress.advance(1);
-  run.watch.lap();
+  report.timings_s.check = run.watch.lap();
 
   progress.start_phase("write");
-  const std::vector<std::uint16_t> orders = orders_of(labelled);
-  const TinView view{.tin = labelled.tin,
-                     .written_xy = terrain.written,
-                     .crs_wkt = run.crs.wkt,
-                     .crs_authority = run.crs.authority,
-                     .is_pit = pits_after.is_pit,
-                     .vertex_source = terrain.vertex_source,
-                     .triangle_orders = orders,
-                     .conflicts = report.conflicts};
-  write_tin(run.output.path, view,
-            {.format = run.output.format, .creation_options = run.output.creation_options},
-            run.outputs.pending, run.output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
   if (!run.outputs.problem.empty()) write_problem(labelled, run, progress);
-  if (!run.outputs.picture.empty()) draw_result(labelled, pits_before, pits_after, run, progress);
+  write_outcome(outcome_of(std::move(labelled), std::move(terrain), std::move(pits_before),
+                           std::move(pits_after), progress),
+                run, report.conflicts, progress);
   report.timings_s.write = run.watch.lap();
   report.timings_s.total = run.watch.total();
   report.peak_memory_bytes = peak_memory_bytes();

@@ -37,7 +37,7 @@ struct RunOutputs {
   std::string report, picture, problem;  ///< temporary paths; empty where none was asked for
 };
 
-/// The ground and what of it is surface.
+/// The ground and what of it is surface. Vertex ids serve the work: neighbours are close in memory.
 struct Terrain {
   Tin ground;
   GroundMode mode = GroundMode::Hull;
@@ -45,6 +45,7 @@ struct Terrain {
   std::vector<Point2> written;              ///< per vertex, as written to files; empty: the plane's own
   std::vector<Point2> continuous;           ///< the same without a jump at the antimeridian, to check them
   std::vector<std::uint8_t> vertex_source;  ///< per vertex: 0 point, 1 line vertex, 2 crossing
+  std::vector<VertexId> number;             ///< per vertex its id in the outputs; empty: the same
 };
 
 /// What a run works with from the ground on.
@@ -59,7 +60,7 @@ struct RunContext {
 
 /// Finds the quadrilaterals, optimises, checks, writes all outputs, and fills the rest of the report.
 /// Throws: Error; nothing is left behind then.
-void finish_run(const Terrain& terrain, const RunContext& run, Report& report, Progress& progress);
+void finish_run(Terrain terrain, const RunContext& run, Report& report, Progress& progress);
 
 /// Counts that the report, `info` and the demo share.
 ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point2> written);

@@ -27,6 +27,10 @@ enum class DuplicateRule : std::uint8_t { First, Last, Lowest, Highest, Mean };
 /// a vertex with different heights; a boundary or hole may cut other lines.
 enum class CrossingRule : std::uint8_t { Auto, Error, Lower, Higher, Mean, First, Last };
 
+/// How vertices get their ids. InOrder: by first appearance, as in every output. AlongCurve: along a
+/// space-filling curve, so that neighbours are close in memory; `Ground::number` says what they are called.
+enum class Numbering : std::uint8_t { InOrder, AlongCurve };
+
 struct GroundOptions {
   DuplicateRule duplicates = DuplicateRule::First;
   /// Points at most so far from a representative are one with it; plane units. In order of (x, y) a point
@@ -37,6 +41,7 @@ struct GroundOptions {
   /// Least side of the snapping grid, 0 or a power of two, plane units: what the coordinates can tell, where
   /// that is more than the spacing of doubles in the plane (they were given in another frame).
   double resolution = 0;
+  Numbering numbering = Numbering::InOrder;
 };
 
 /// Where a vertex of the ground comes from: what has its very position, first in the order of ids.
@@ -48,16 +53,17 @@ struct VertexOrigin {
 };
 
 struct Ground {
-  /// Ids: points in file order, a duplicate with its first; then other line vertices in order of lines; then
-  /// crossings by (x, y). In polygon mode only vertices of triangles have an id.
+  /// Ids in order: points in file order, a duplicate with its first; then other line vertices in order of
+  /// lines; then crossings by (x, y). In polygon mode only vertices of triangles have an id.
   Tin tin;
   std::vector<VertexOrigin> origins;     ///< one a vertex
+  std::vector<VertexId> number;          ///< under Numbering::AlongCurve: for each vertex its id in order
   std::vector<VertexId> point_vertices;  ///< for each point of the survey; invalid: outside of the boundary
-  std::vector<Conflict> conflicts;    ///< every height that disagrees at a vertex of the TIN, in order of ids
-  std::size_t duplicates_merged = 0;  ///< points that joined an earlier one
-  std::size_t outside_boundary = 0;   ///< distinct points that were dropped
-  std::size_t crossings = 0;          ///< vertices that are neither points nor line vertices
-  double pixel = 0;                   ///< no line was moved so far; plane units; 0 without lines
+  std::vector<Conflict> conflicts;       ///< every height that disagrees at a vertex of the TIN, in order
+  std::size_t duplicates_merged = 0;     ///< points that joined an earlier one
+  std::size_t outside_boundary = 0;      ///< distinct points that were dropped
+  std::size_t crossings = 0;             ///< vertices that are neither points nor line vertices
+  double pixel = 0;                      ///< no line was moved so far; plane units; 0 without lines
   GroundMode mode = GroundMode::Hull;
 };
 

@@ -3,6 +3,7 @@
 /// The triangulated irregular network: flat arrays, immutable once built.
 
 #include <thalweg/base/id.hpp>
+#include <thalweg/base/progress.hpp>
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/mesh/edge_kind.hpp>
 
@@ -101,10 +102,19 @@ class Tin {
   }
   /// The constraint edges, a < b, sorted. Complexity: linear.
   [[nodiscard]] std::vector<ConstraintEdge> constraint_edges() const;
+  /// The same TIN where vertex v has the id number[v]. Throws: Error{InvalidTin} if
+  /// the numbers are no permutation; Error{Cancelled}. Complexity: linear.
+  [[nodiscard]] Tin renumbered(std::span<const VertexId> number, const Progress& progress) const;
 
  private:
   void sort_triangles();
+  void list_fans();
   void link_halfedges();
+  void sort_large_fan(std::span<HalfedgeId> fan) const;
+  std::vector<HalfedgeId> take_triangles(const Tin& from, std::span<const VertexId> number,
+                                         const Progress& progress);
+  void take_halfedges(const Tin& from, std::span<const VertexId> number, std::span<const HalfedgeId> moved,
+                      const Progress& progress);
   void mark_constraints(std::span<const ConstraintEdge> constraints);
 
   std::vector<Point2> points_;
@@ -125,5 +135,7 @@ Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges);
 /// The TIN of the triangles for which `keep` is true; all vertices stay, with their ids. Constraint edges
 /// that lose their last triangle are dropped. Pre: keep.size() == tin.triangle_count().
 Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep);
+/// The same; a TIN that keeps all is passed on.
+Tin keep_triangles(Tin&& tin, const std::vector<bool>& keep);
 
 }  // namespace thalweg

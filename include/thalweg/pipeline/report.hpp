@@ -18,6 +18,7 @@ struct PhaseSeconds {
   double triangulate = 0;
   double orders = 0;
   double optimize = 0;
+  double check = 0;  ///< the TIN's laws, pits and figures, by plain code
   double write = 0;
   double total = 0;
 };

@@ -292,6 +292,38 @@ TEST(Ground, BoundaryDropsWhatIsOutside) {
       std::all_of(ground.tin.heights().begin(), ground.tin.heights().end(), [](double z) { return z == 3; }));
 }
 
+// Under both numberings; with a boundary, so that vertices are dropped too.
+TEST(Ground, NumberingAlongACurveChangesIdsOnly) {
+  std::vector<Point3> points;
+  for (int i = 0; i < 400; ++i) {
+    const double x = (i * 37) % 101, y = (i * 61) % 103;
+    points.push_back({x, y, x + 2 * y});
+  }
+  Survey survey = make_survey(points);
+  add_hard(survey, {{10.5, 11.5, 3}, {80.5, 70.5, 4}});
+  for (const bool bounded : {false, true}) {
+    if (bounded) add_soft(survey, {{20, 20}, {80, 20}, {80, 80}, {20, 80}, {20, 20}}, EdgeKind::Boundary);
+    const Ground plain = build(survey);
+    const Ground curved = build(survey, {.numbering = Numbering::AlongCurve});
+    EXPECT_TRUE(plain.number.empty());
+    ASSERT_EQ(curved.number.size(), plain.tin.vertex_count());
+    const Tin renumbered = curved.tin.renumbered(curved.number, Progress());
+    EXPECT_TRUE(std::ranges::equal(renumbered.points(), plain.tin.points()));
+    EXPECT_TRUE(std::ranges::equal(renumbered.heights(), plain.tin.heights()));
+    EXPECT_TRUE(std::ranges::equal(renumbered.triangles(), plain.tin.triangles()));
+    EXPECT_TRUE(std::ranges::equal(renumbered.arrays().kinds, plain.tin.arrays().kinds));
+    for (std::size_t v = 0; v < curved.number.size(); ++v) {
+      const VertexOrigin& origin = plain.origins[curved.number[v].index()];
+      EXPECT_EQ(curved.origins[v].kind, origin.kind);
+      EXPECT_EQ(curved.origins[v].index, origin.index);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const VertexId v = curved.point_vertices[i];
+      EXPECT_EQ(v.valid() ? curved.number[v.index()] : v, plain.point_vertices[i]);
+    }
+  }
+}
+
 TEST(Ground, HolesAreCutOutEvenWhereTheyOverlap) {
   std::vector<Point3> points;
   for (int y = 0; y <= 10; ++y) {

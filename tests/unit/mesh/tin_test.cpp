@@ -189,5 +189,50 @@ TEST(RimLoops, FansThatMeetAtAVertexHaveTheirOwnLoops) {
   EXPECT_THAT(rim_loops(tin), ElementsAre(ids({0, 1, 2}), ids({0, 3, 4})));
 }
 
+// A lattice with a hole, a constraint edge, and a hub of many triangles, under permuted ids.
+TEST(Tin, RenumberedIsTheTinBuiltUnderThoseIds) {
+  std::vector<Point2> points{{0, 0}};
+  std::vector<Triangle> triangles;
+  constexpr std::size_t kSpokes = 60;
+  for (std::size_t i = 0; i <= kSpokes; ++i) {
+    const double x = static_cast<double>(i) - 30;
+    points.push_back({x, 100 - x * x / 100});
+    if (i > 0 && i != 20) triangles.push_back(triangle(0, i + 1, i));
+  }
+  const Tin tin = make_tin(points, triangles, {edge(0, 7, EdgeKind::Valley), edge(1, 2, EdgeKind::Ridge)});
+  std::vector<VertexId> number;
+  for (std::size_t v = 0; v < points.size(); ++v) number.emplace_back((v * 23 + 5) % points.size());
+  const Tin moved = tin.renumbered(number, Progress());
+
+  std::vector<Point2> new_points(points.size());
+  std::vector<double> new_heights(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    new_points[number[v].index()] = points[v];
+    new_heights[number[v].index()] = tin.heights()[v];
+  }
+  for (Triangle& t : triangles) {
+    for (VertexId& v : t) v = number[v.index()];
+  }
+  const Tin expected(new_points, new_heights, triangles,
+                     std::vector<ConstraintEdge>{{number[0], number[7], EdgeKind::Valley},
+                                                 {number[1], number[2], EdgeKind::Ridge}});
+  EXPECT_TRUE(validate(moved).empty());
+  EXPECT_TRUE(std::ranges::equal(moved.points(), expected.points()));
+  EXPECT_TRUE(std::ranges::equal(moved.heights(), expected.heights()));
+  EXPECT_TRUE(std::ranges::equal(moved.triangles(), expected.triangles()));
+  EXPECT_TRUE(std::ranges::equal(moved.arrays().twins, expected.arrays().twins));
+  EXPECT_TRUE(std::ranges::equal(moved.arrays().kinds, expected.arrays().kinds));
+  EXPECT_EQ(moved.edge_count(), expected.edge_count());
+  for (std::size_t v = 1; v < points.size(); ++v) {
+    EXPECT_EQ(moved.find_halfedge(number[0], number[v]), expected.find_halfedge(number[0], number[v]));
+  }
+}
+
+TEST(Tin, RenumberedRefusesWhatIsNoPermutation) {
+  expect_invalid([] { (void)square().renumbered(ids({0, 1, 2, 2}), Progress()); }, "permutation");
+  expect_invalid([] { (void)square().renumbered(ids({0, 1, 2, 4}), Progress()); }, "permutation");
+  expect_invalid([] { (void)square().renumbered(ids({0, 1, 2}), Progress()); }, "permutation");
+}
+
 }  // namespace
 }  // namespace thalweg
