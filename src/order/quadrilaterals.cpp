@@ -21,7 +21,7 @@
 // st
 //    that sees u counts from Std to SeesOpp. Anything else is left to ConstrainedOrder, and happens next to
 //    edges that block. Without such edges all definitions up to Sees3vtx agree.
-// 4. The neighbours across vs and tv come first: they refuse most edges.
+// 4. The neighbours across the four sides come first: they refuse most edges.
 // 5. Std: there is a triangulation of order at most 1 only if the constrained Delaunay triangulation is one;
 // then both
 //    triangles must pass the Std flood as well.
@@ -55,14 +55,14 @@ class QuadrilateralSearch {
 
  private:
   enum class Verdict { Fits, Refused, Unclear };
-  [[nodiscard]] Verdict judge(const Triangle& corners, VertexId inner, HalfedgeId inner_to_s) const;
+  [[nodiscard]] Verdict judge(const Triangle& corners, VertexId inner) const;
+  [[nodiscard]] bool refused_across(const Triangle& corners, HalfedgeId side) const;
   [[nodiscard]] Verdict weigh(const Triangle& corners, VertexId x) const;
   [[nodiscard]] bool inside(const Triangle& corners, VertexId x) const {
     return in_circle_perturbed(tin_.point(corners[0]), tin_.point(corners[1]), tin_.point(corners[2]),
                                tin_.point(x));
   }
-  [[nodiscard]] bool fits(const Triangle& corners, VertexId inner, HalfedgeId inner_to_s,
-                          OrderWorkspace& workspace) const;
+  [[nodiscard]] bool fits(const Triangle& corners, VertexId inner, OrderWorkspace& workspace) const;
 
   const Tin& tin_;
   OrderDefinition definition_;
@@ -78,19 +78,25 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::weigh(const Triangle& corners,
   return beyond_st && order_.sees(x, corners[1]) ? Verdict::Refused : Verdict::Unclear;
 }
 
-// Triangle s u t with v inside its circle; v -> s is a halfedge of triangle u v s.
-QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Triangle& corners, VertexId inner,
-                                                        HalfedgeId inner_to_s) const {
+// Whether the vertex across a side of the quadrilateral that ends at the inner vertex is enough to refuse.
+bool QuadrilateralSearch::refused_across(const Triangle& corners, HalfedgeId side) const {
+  const HalfedgeId outer = tin_.twin(side);
+  if (!outer.valid()) return false;
+  const VertexId x = tin_.apex(outer);
+  if (x == corners[0] || x == corners[1] || x == corners[2]) return false;
+  return inside(corners, x) && weigh(corners, x) == Verdict::Refused;
+}
+
+// Triangle s u t with v inside its circle.
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Triangle& corners, VertexId inner) const {
   const auto is_corner = [&](VertexId x) { return x == corners[0] || x == corners[1] || x == corners[2]; };
   bool unclear = false;
   const auto refuses = [&](VertexId x) {
-    if (!x.valid() || is_corner(x) || !inside(corners, x)) return false;
+    if (is_corner(x) || !inside(corners, x)) return false;
     const Verdict verdict = weigh(corners, x);
     unclear = unclear || verdict == Verdict::Unclear;
     return verdict == Verdict::Refused;
   };
-  const HalfedgeId s_to_inner = tin_.twin(inner_to_s);
-  if (s_to_inner.valid() && refuses(tin_.apex(s_to_inner))) return Verdict::Refused;
   for (const HalfedgeId h : tin_.outgoing(inner)) {
     if (refuses(tin_.target(h)) || (tin_.on_rim(Tin::previous(h)) && refuses(tin_.apex(h)))) {
       return Verdict::Refused;
@@ -99,9 +105,8 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Triangle& corners,
   return unclear ? Verdict::Unclear : Verdict::Fits;
 }
 
-bool QuadrilateralSearch::fits(const Triangle& corners, VertexId inner, HalfedgeId inner_to_s,
-                               OrderWorkspace& workspace) const {
-  const Verdict verdict = judge(corners, inner, inner_to_s);
+bool QuadrilateralSearch::fits(const Triangle& corners, VertexId inner, OrderWorkspace& workspace) const {
+  const Verdict verdict = judge(corners, inner);
   if (verdict == Verdict::Refused) return false;
   const bool decided =
       verdict == Verdict::Fits && (definition_ != OrderDefinition::Std || order_.unconstrained());
@@ -115,8 +120,12 @@ std::optional<Quadrilateral> QuadrilateralSearch::at(HalfedgeId h, OrderWorkspac
   const Point2 s = tin_.point(q.s);
   const Point2 t = tin_.point(q.t);
   if (orientation(s, tin_.point(q.u), t) <= 0 || orientation(t, tin_.point(q.v), s) <= 0) return std::nullopt;
-  if (!fits({q.s, q.u, q.t}, q.v, Tin::next(h), workspace)) return std::nullopt;
-  if (!fits({q.t, q.v, q.s}, q.u, Tin::next(twin), workspace)) return std::nullopt;
+  const Triangle at_u{q.s, q.u, q.t}, at_v{q.t, q.v, q.s};
+  if (refused_across(at_u, Tin::next(h)) || refused_across(at_u, Tin::previous(twin)) ||
+      refused_across(at_v, Tin::next(twin)) || refused_across(at_v, Tin::previous(h))) {
+    return std::nullopt;
+  }
+  if (!fits(at_u, q.v, workspace) || !fits(at_v, q.u, workspace)) return std::nullopt;
   return q;
 }
 

@@ -239,6 +239,7 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
     flips.push_back(labelled.quadrilaterals[q].diagonal);
     labelled.new_diagonals.push_back({labelled.quadrilaterals[q].s, labelled.quadrilaterals[q].t});
   }
+  progress.check();
   labelled.tin = flip_edges(labelled.delaunay, flips);
   progress.advance(1);
   seconds.optimize = run.watch.lap();
@@ -361,9 +362,11 @@ void finish_run(Terrain terrain, const RunContext& run, Report& report, Progress
 
   progress.start_phase("check");
   refuse_violations(labelled.tin, terrain, progress);
+  progress.advance(0.4);
   PitSummary pits_before = find_pits(labelled.delaunay);
   PitSummary pits_after = find_pits(labelled.tin);
   check_pit_count(labelled.result, pits_after);
+  progress.advance(0.6);
   describe_result(labelled, terrain, run, report);
   report.pits_delaunay = describe_pits(pits_before);
   report.pits_result = describe_pits(pits_after);
