@@ -32,6 +32,7 @@ void print(const std::string& text);
 /// Registers the subcommands.
 void add_build_command(CLI::App& app);
 void add_optimize_command(CLI::App& app);
+void add_convert_command(CLI::App& app);
 void add_order_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_view_command(CLI::App& app);

@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
       "Sources are PATH or 'PATH|layername=NAME'. `thalweg COMMAND --help` tells more.");
   add_build_command(app);
   add_optimize_command(app);
+  add_convert_command(app);
   add_order_command(app);
   add_info_command(app);
   add_view_command(app);

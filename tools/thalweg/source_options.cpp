@@ -12,7 +12,13 @@ namespace thalweg::cli {
 
 namespace {
 
-Box2 parse_box(const std::string& text) {
+void add_lines(const std::vector<std::string>& files, EdgeKind kind, std::vector<LineSource>& lines) {
+  for (const std::string& file : files) lines.push_back({parse_source(file), kind});
+}
+
+}  // namespace
+
+Box2 parse_box(const std::string& option, const std::string& text) {
   std::vector<double> numbers;
   const char* at = text.data();
   const char* const end = at + text.size();
@@ -24,16 +30,10 @@ Box2 parse_box(const std::string& text) {
     at = rest == end ? end : rest + 1;
   }
   if (numbers.size() != 4 || at != end || !(numbers[0] <= numbers[2]) || !(numbers[1] <= numbers[3])) {
-    throw Error(ErrorCode::Usage, "--bbox takes xmin,ymin,xmax,ymax, not '" + text + "'");
+    throw Error(ErrorCode::Usage, option + " takes xmin,ymin,xmax,ymax, not '" + text + "'");
   }
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
-
-void add_lines(const std::vector<std::string>& files, EdgeKind kind, std::vector<LineSource>& lines) {
-  for (const std::string& file : files) lines.push_back({parse_source(file), kind});
-}
-
-}  // namespace
 
 void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read) {
   const auto lines = [&](const char* name, std::vector<std::string>& files, const char* what) {
@@ -81,7 +81,7 @@ void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vec
   add_lines(arguments.valleys, EdgeKind::Valley, lines);
   add_lines(arguments.breaklines, EdgeKind::Breakline, lines);
   add_lines(arguments.boundary, EdgeKind::Boundary, lines);
-  if (!arguments.bbox.empty()) read.bbox = parse_box(arguments.bbox);
+  if (!arguments.bbox.empty()) read.bbox = parse_box("--bbox", arguments.bbox);
 }
 
 }  // namespace thalweg::cli

@@ -20,6 +20,8 @@ struct SourceArguments {
 
 void add_source_options(CLI::App& command, SourceArguments& arguments, ReadOptions& read);
 void add_crossing_option(CLI::App& command, GroundOptions& ground);
+/// Reads "xmin,ymin,xmax,ymax"; `option` is named in errors. Throws: Error{Usage}.
+Box2 parse_box(const std::string& option, const std::string& text);
 /// Turns the names into sources. Throws: Error{Usage}.
 void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vector<LineSource>& lines);
 

@@ -1,0 +1,60 @@
+#pragma once
+
+/// From a TIN file to another mesh, to vector layers, to a raster, to contours.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/geometry/point.hpp>
+#include <thalweg/io/write_raster.hpp>
+#include <thalweg/terrain/sample_surface.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+/// Coordinates and lengths are in units of the TIN's coordinates (degrees for a geographic CRS), heights in
+/// its unit of heights.
+struct RasterConfig {
+  double resolution = 0;  ///< side of a cell
+  /// Of the cells' sides. None: cell centres start at the lowest x and the highest y of the TIN's vertices,
+  /// so that a DEM whose cells were the vertices comes back cell by cell.
+  std::optional<Box2> extent;
+  SurfaceValue value = SurfaceValue::Elevation;
+  RasterType type = RasterType::Float32;  ///< hillshade is always bytes
+};
+
+struct ContourConfig {
+  double interval = 0;
+  double base = 0;
+  std::string field = "elev";
+};
+
+struct ConvertConfig {
+  std::string input;
+  std::string output;
+  std::string format;                         ///< empty: by the output's extension
+  std::vector<std::string> creation_options;  ///< K=V
+  bool overwrite = false;
+  std::optional<RasterConfig> raster;
+  std::optional<ContourConfig> contours;
+};
+
+struct ConvertResult {
+  enum class Kind { Tin, Raster, Contours } kind = Kind::Tin;
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t columns = 0, rows = 0, cells_without_data = 0;  ///< of a raster
+  std::size_t lines = 0;                                      ///< contour lines
+};
+
+/// Converts a TIN file; what to is decided by `contours`, then by the format. A mesh keeps vertices, ids,
+/// triangles, constraint edges, orders and CRS, as far as the format can hold them. Throws: Error; no output
+/// is left then.
+ConvertResult convert_tin(const ConvertConfig& config, Progress& progress);
+
+std::string to_json(const ConvertResult& result);
+std::string to_text(const ConvertResult& result);
+
+}  // namespace thalweg

@@ -1,0 +1,110 @@
+// Rasters by GDAL: the grid becomes a dataset in memory, which the driver copies to a file in memory, and
+// that is copied out with every error seen. So formats that can only copy (COG, PNG, AAIGrid) work like
+// others.
+#include "io/gdal_formats.hpp"
+#include "io/gdal_session.hpp"
+#include "io/memory_folder.hpp"
+#include "io/spatial_reference.hpp"
+
+#include <thalweg/io/write_raster.hpp>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+GDALDataType gdal_type(RasterType type) {
+  switch (type) {
+    case RasterType::Byte:
+      return GDT_Byte;
+    case RasterType::Float32:
+      return GDT_Float32;
+    case RasterType::Float64:
+      return GDT_Float64;
+  }
+  return GDT_Float32;
+}
+
+[[noreturn]] void fail(const std::string& path, const GdalSession& session) {
+  throw Error(ErrorCode::WriteFailed, path + ": could not be written as a raster" + session.reason() +
+                                          "; choose another format or other creation options");
+}
+
+GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& view,
+                                  const GdalSession& session) {
+  GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
+  const int columns = static_cast<int>(view.grid.columns), rows = static_cast<int>(view.grid.rows);
+  GDALDatasetUniquePtr dataset(
+      memory == nullptr ? nullptr : memory->Create("", columns, rows, 1, gdal_type(view.type), nullptr));
+  if (!dataset) fail(path, session);
+  std::array<double, 6> transform = {view.grid.x0, view.grid.cell, 0, view.grid.y0, 0, -view.grid.cell};
+  dataset->SetGeoTransform(transform.data());
+  if (!view.crs_wkt.empty()) {
+    const OGRSpatialReference reference = parse_reference(view.crs_wkt);
+    dataset->SetSpatialRef(&reference);
+  }
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  const double nodata = view.type == RasterType::Byte ? 0 : -9999;
+  band.SetNoDataValue(nodata);
+  band.SetDescription(view.description.c_str());
+  std::vector<double> line(view.grid.columns);
+  for (int row = 0; row < rows; ++row) {
+    const auto from = view.values.begin() + static_cast<std::ptrdiff_t>(view.grid.columns) * row;
+    std::transform(from, from + columns, line.begin(), [&](double v) { return std::isnan(v) ? nodata : v; });
+    if (band.RasterIO(GF_Write, 0, row, columns, 1, line.data(), columns, 1, GDT_Float64, 0, 0, nullptr) !=
+        CE_None)
+      fail(path, session);
+  }
+  return dataset;
+}
+
+int report_progress(double fraction, const char*, void* progress) {
+  auto& ours = *static_cast<Progress*>(progress);
+  try {
+    ours.advance(fraction);
+  } catch (const Error&) {
+    return FALSE;  // GDAL is C: the error is thrown again when it has returned
+  }
+  return TRUE;
+}
+
+}  // namespace
+
+bool is_raster_format(const std::string& path, const std::string& format) {
+  const GdalSession session;
+  return find_output_driver(path, format, DriverUse::Raster) != nullptr;
+}
+
+void write_raster(const std::string& path, const RasterView& view, const WriteOptions& options,
+                  PendingOutputs& pending, Overwrite mode, Progress& progress) {
+  const GdalSession session;
+  const CPLConfigOptionSetter no_sidecar("GDAL_PAM_ENABLED", "NO", false);
+  GDALDriver* driver = find_output_driver(path, options.format, DriverUse::Raster);
+  if (driver == nullptr) {
+    throw Error(ErrorCode::Usage,
+                path + ": no raster format that this GDAL writes; name one with --of (gdalinfo --formats)");
+  }
+  progress.start_phase(std::string("write ") + driver->GetDescription());
+  const std::string written = pending.add(path, mode);
+  const GDALDatasetUniquePtr dataset = make_dataset(path, view, session);
+  CPLStringList creation;
+  for (const std::string& option : options.creation_options) creation.AddString(option.c_str());
+  const MemoryFolder folder(path);
+  GDALDatasetUniquePtr copy(driver->CreateCopy(folder.path().c_str(), dataset.get(), FALSE, creation.List(),
+                                               report_progress, &progress));
+  progress.check();
+  if (!copy) fail(path, session);
+  copy.reset();
+  if (session.failed()) fail(path, session);
+  folder.deliver(written, pending, mode);
+  progress.advance(1);
+}
+
+}  // namespace thalweg

@@ -1,0 +1,267 @@
+// Conversion of a TIN file.
+//
+// 1. Read the TIN, bring it to its plane, and refuse one that breaks a law: values between its vertices would
+//    mean nothing.
+// 2. Mesh and layers: written as they are. Orders follow their triangles, which a Tin sorts.
+// 3. Raster: strips of rows; each cell centre goes to the plane and is sampled there.
+// 4. Contours: traced in the plane, written in the TIN's coordinates.
+#include "pipeline/loaded_tin.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/io/read_tin.hpp>
+#include <thalweg/io/write_lines.hpp>
+#include <thalweg/mesh/validate.hpp>
+#include <thalweg/pipeline/convert.hpp>
+#include <thalweg/terrain/contours.hpp>
+#include <thalweg/terrain/pits.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+struct Source {
+  LoadedTin loaded;
+  std::vector<std::uint16_t> orders;  ///< of the TIN's triangles; empty: not known
+
+  [[nodiscard]] std::span<const Point2> written() const {
+    return loaded.written.empty() ? loaded.tin.points() : loaded.written;
+  }
+};
+
+// Orders in the order in which a Tin sorts its triangles.
+std::vector<std::uint16_t> sorted_orders(const TinFile& file) {
+  if (file.triangle_orders.empty()) return {};
+  std::vector<std::pair<Triangle, std::uint16_t>> rows;
+  rows.reserve(file.triangles.size());
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    Triangle triangle = file.triangles[t];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    rows.emplace_back(triangle, file.triangle_orders[t]);
+  }
+  std::sort(rows.begin(), rows.end());
+  std::vector<std::uint16_t> orders(rows.size());
+  std::transform(rows.begin(), rows.end(), orders.begin(), [](const auto& row) { return row.second; });
+  return orders;
+}
+
+Source load_source(const std::string& path, Progress& progress) {
+  TinFile file = read_tin(path, progress);
+  std::vector<std::uint16_t> orders = sorted_orders(file);
+  CrsInfo crs = describe_crs(file.crs);
+  Plane plane(crs, file.points);
+  Tin tin(plane.to_plane(file.points, progress), std::move(file.heights), std::move(file.triangles),
+          file.constraints);
+  if (const auto violations = validate(tin); !violations.empty()) {
+    throw Error(ErrorCode::InvalidTin, path + ": breaks law " + std::to_string(violations.front().code) +
+                                           ": " + violations.front().what +
+                                           "; `thalweg info` lists all violations");
+  }
+  Source source{{std::move(tin), std::move(crs), std::move(plane), {}}, std::move(orders)};
+  if (source.loaded.plane.projected()) source.loaded.written = std::move(file.points);
+  return source;
+}
+
+/// What a conversion goes from and to.
+struct Job {
+  const ConvertConfig& config;
+  const Source& source;
+  PendingOutputs& outputs;
+  Progress& progress;
+
+  [[nodiscard]] Overwrite overwrite() const { return config.overwrite ? Overwrite::Yes : Overwrite::No; }
+  [[nodiscard]] WriteOptions options() const { return {config.format, config.creation_options}; }
+};
+
+void write_mesh(const Job& job) {
+  const PitSummary pits = find_pits(job.source.loaded.tin);
+  std::vector<std::uint8_t> is_pit = pits.is_pit;
+  std::replace(is_pit.begin(), is_pit.end(), static_cast<std::uint8_t>(PitKind::Boundary), std::uint8_t{0});
+  const TinView view{.tin = job.source.loaded.tin,
+                     .written_xy = job.source.loaded.written,
+                     .crs_wkt = job.source.loaded.crs.wkt,
+                     .crs_authority = job.source.loaded.crs.authority,
+                     .is_pit = is_pit,
+                     .triangle_orders = job.source.orders};
+  write_tin(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
+}
+
+// Doubles that should be whole numbers of cells are so up to rounding.
+std::size_t cell_count(double length, double cell) {
+  constexpr double kSlack = 1e-6;
+  return static_cast<std::size_t>(std::max(1.0, std::floor(length / cell + kSlack)));
+}
+
+RasterGrid make_grid(const RasterConfig& raster, const Source& source) {
+  constexpr double kMostCells = 2e9;
+  if (!(raster.resolution > 0) || !std::isfinite(raster.resolution)) {
+    throw Error(ErrorCode::Usage,
+                "a raster needs the side of its cells, in units of the TIN's coordinates: --resolution SIZE");
+  }
+  const double cell = raster.resolution;
+  Box2 box;
+  if (raster.extent) {
+    box = *raster.extent;
+  } else {
+    for (const Triangle& t : source.loaded.tin.triangles()) {
+      for (const VertexId v : t) box.add(source.written()[v.index()]);
+    }
+    if (source.loaded.plane.projected() && box.width() > source.loaded.plane.x_period() / 2) {
+      throw Error(
+          ErrorCode::Usage,
+          "the TIN crosses the antimeridian; say which side of it the raster shall show with --extent");
+    }
+    box = {box.x_min - cell / 2, box.y_min - cell / 2, box.x_max + cell / 2, box.y_max + cell / 2};
+  }
+  if (!(box.width() / cell * (box.height() / cell) < kMostCells)) {
+    throw Error(ErrorCode::SizeLimit,
+                "the raster would have more than 2e9 cells; choose a larger --resolution");
+  }
+  return {box.x_min, box.y_max, cell, cell_count(box.width(), cell), cell_count(box.height(), cell)};
+}
+
+const char* band_name(SurfaceValue value) {
+  switch (value) {
+    case SurfaceValue::Elevation:
+      return "elevation";
+    case SurfaceValue::Hillshade:
+      return "hillshade";
+    case SurfaceValue::Slope:
+      return "slope";
+    case SurfaceValue::Aspect:
+      return "aspect";
+  }
+  return "";
+}
+
+void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& result) {
+  const RasterGrid grid = make_grid(raster, job.source);
+  const Plane& plane = job.source.loaded.plane;
+  const SurfaceSampler sampler(job.source.loaded.tin, plane.scale());
+  job.progress.start_phase("sample");
+  constexpr std::size_t kStrip = 1U << 20U;
+  const std::size_t strip = std::max<std::size_t>(1, kStrip / grid.columns);
+  std::vector<double> values;
+  values.reserve(grid.columns * grid.rows);
+  for (std::size_t row = 0; row < grid.rows; row += strip) {
+    job.progress.advance(static_cast<double>(row) / static_cast<double>(grid.rows));
+    std::vector<Point2> places;
+    for (std::size_t r = row; r < std::min(grid.rows, row + strip); ++r) {
+      for (std::size_t c = 0; c < grid.columns; ++c) places.push_back(grid.centre(c, r));
+    }
+    if (plane.projected()) places = plane.to_plane(places, job.progress);
+    const std::vector<double> part = sampler.sample(places, raster.value, job.progress);
+    values.insert(values.end(), part.begin(), part.end());
+  }
+  result.columns = grid.columns;
+  result.rows = grid.rows;
+  result.cells_without_data = static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
+  const RasterView view{.grid = grid,
+                        .values = values,
+                        .type = raster.value == SurfaceValue::Hillshade ? RasterType::Byte : raster.type,
+                        .crs_wkt = job.source.loaded.crs.wkt,
+                        .description = band_name(raster.value)};
+  write_raster(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
+}
+
+void write_contours(const Job& job, const ContourConfig& contours, ConvertResult& result) {
+  job.progress.start_phase("contours");
+  const Plane& plane = job.source.loaded.plane;
+  std::vector<LevelLine> lines;
+  for (ContourLine& line :
+       trace_contours(job.source.loaded.tin, {contours.interval, contours.base}, job.progress)) {
+    if (plane.projected()) {
+      for (Point2& p : line.points) p = plane.to_written(p);
+    }
+    lines.push_back({line.height, std::move(line.points)});
+  }
+  result.lines = lines.size();
+  const LineLayerView view{
+      .lines = lines, .layer = "contours", .field = contours.field, .crs_wkt = job.source.loaded.crs.wkt};
+  write_level_lines(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
+}
+
+bool is_mesh_format(const ConvertConfig& config) {
+  try {
+    check_write_options(config.output, {config.format, {}});
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+ConvertResult::Kind kind_of(const ConvertConfig& config) {
+  if (config.contours) return ConvertResult::Kind::Contours;
+  if (is_mesh_format(config)) {
+    if (config.raster) {
+      throw Error(ErrorCode::Usage, config.output +
+                                        ": is a format of TINs, but options of a raster are given; " +
+                                        "name a raster format with --of");
+    }
+    check_write_options(config.output, {config.format, config.creation_options});
+    return ConvertResult::Kind::Tin;
+  }
+  if (is_raster_format(config.output, config.format)) return ConvertResult::Kind::Raster;
+  throw Error(ErrorCode::Usage, config.output +
+                                    ": names no format of TINs (thalweg formats) and none of rasters "
+                                    "(gdalinfo --formats); give another extension or --of NAME");
+}
+
+}  // namespace
+
+ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
+  ConvertResult result;
+  result.kind = kind_of(config);
+  PendingOutputs outputs;
+  progress.start_phase("read");
+  const Source source = load_source(config.input, progress);
+  result.vertices = source.loaded.tin.vertex_count();
+  result.triangles = source.loaded.tin.triangle_count();
+  const Job job{config, source, outputs, progress};
+  switch (result.kind) {
+    case ConvertResult::Kind::Tin:
+      write_mesh(job);
+      break;
+    case ConvertResult::Kind::Raster:
+      write_surface(job, config.raster.value_or(RasterConfig{}), result);
+      break;
+    case ConvertResult::Kind::Contours:
+      write_contours(job, *config.contours, result);
+      break;
+  }
+  outputs.commit();
+  progress.advance(1);
+  return result;
+}
+
+std::string to_json(const ConvertResult& result) {
+  nlohmann::ordered_json json = {{"vertices", result.vertices}, {"triangles", result.triangles}};
+  if (result.kind == ConvertResult::Kind::Raster) {
+    json["raster"] = {{"columns", result.columns},
+                      {"rows", result.rows},
+                      {"cells_without_data", result.cells_without_data}};
+  }
+  if (result.kind == ConvertResult::Kind::Contours) json["contour_lines"] = result.lines;
+  return json.dump(2) + "\n";
+}
+
+std::string to_text(const ConvertResult& result) {
+  const std::string tin = fmt::format("{} vertices, {} triangles", result.vertices, result.triangles);
+  if (result.kind == ConvertResult::Kind::Raster) {
+    return fmt::format("{}: {} x {} cells, {} of them without data\n", tin, result.columns, result.rows,
+                       result.cells_without_data);
+  }
+  if (result.kind == ConvertResult::Kind::Contours)
+    return fmt::format("{}: {} contour lines\n", tin, result.lines);
+  return tin + "\n";
+}
+
+}  // namespace thalweg

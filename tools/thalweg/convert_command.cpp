@@ -1,0 +1,101 @@
+// thalweg convert: from a TIN to another mesh, to vector layers, to a raster, to contours.
+#include "command.hpp"
+#include "source_options.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/pipeline/convert.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace thalweg::cli {
+
+namespace {
+
+struct ConvertArguments {
+  ConvertConfig config;
+  RasterConfig raster;
+  ContourConfig contours;
+  std::string extent;
+  bool has_contours = false;
+  Common common;
+};
+
+void add_raster_options(CLI::App& command, ConvertArguments& a) {
+  command
+      .add_option("--resolution", a.raster.resolution,
+                  "raster: side of a cell, in units of the TIN's coordinates")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--extent", a.extent, "raster: xmin,ymin,xmax,ymax of its sides (default: the TIN's)");
+  command.add_option("--surface", a.raster.value, "raster: elevation, hillshade, slope, aspect (degrees)")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, SurfaceValue>{{"elevation", SurfaceValue::Elevation},
+                                                                      {"hillshade", SurfaceValue::Hillshade},
+                                                                      {"slope", SurfaceValue::Slope},
+                                                                      {"aspect", SurfaceValue::Aspect}}))
+      ->default_str("elevation");
+  command.add_option("--ot", a.raster.type, "raster: type of the values, float32 or float64")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, RasterType>{{"float32", RasterType::Float32},
+                                                                            {"float64", RasterType::Float64}},
+                                          CLI::ignore_case))
+      ->default_str("float32");
+}
+
+void add_contour_options(CLI::App& command, ConvertArguments& a) {
+  CLI::Option* contours = command.add_flag("--contours", a.has_contours, "contour lines, in a vector layer");
+  command
+      .add_option("--interval", a.contours.interval,
+                  "contours: between heights, in the TIN's unit of heights")
+      ->check(CLI::PositiveNumber)
+      ->needs(contours);
+  command.add_option("--base", a.contours.base, "contours: a height that is a contour's")->needs(contours);
+  command.add_option("--field", a.contours.field, "contours: attribute with the height")
+      ->needs(contours)
+      ->capture_default_str();
+}
+
+void run_convert(const CLI::App& command, ConvertArguments& a) {
+  if (!a.extent.empty()) a.raster.extent = parse_box("--extent", a.extent);
+  bool raster = false;
+  for (const char* option : {"--resolution", "--extent", "--surface", "--ot"})
+    raster |= command.count(option) > 0;
+  if (a.has_contours) {
+    if (raster) throw Error(ErrorCode::Usage, "--contours gives lines, and takes no options of a raster");
+    if (command.count("--interval") == 0) {
+      throw Error(ErrorCode::Usage, "--contours needs --interval H, the difference between their heights");
+    }
+    a.config.contours = a.contours;
+  }
+  if (raster) a.config.raster = a.raster;
+  const ConvertResult result = convert_tin(a.config, progress_of(a.common));
+  if (a.common.format == Format::Json) {
+    print(to_json(result));
+  } else if (a.common.quiet == 0) {
+    print(to_text(result));
+  }
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  auto a = std::make_shared<ConvertArguments>();
+  CLI::App* command =
+      app.add_subcommand("convert", "a TIN to another mesh, vector layers, a raster, contours");
+  command->add_option("TIN", a->config.input, "TIN file")->required();
+  command->add_option("OUTPUT", a->config.output, "file to write; its extension or --of says what")
+      ->required();
+  add_raster_options(*command, *a);
+  add_contour_options(*command, *a);
+  command->add_option("--of", a->config.format,
+                      "format: of `thalweg formats`, or GDAL's name (GTiff, COG, ...)");
+  command->add_option("--co", a->config.creation_options, "creation option K=V; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_flag("--overwrite", a->config.overwrite, "replace an existing output");
+  add_common_options(*command, a->common);
+  command->callback([a, command] { run_convert(*command, *a); });
+}
+
+}  // namespace thalweg::cli
