@@ -16,14 +16,15 @@ enum class Format { Text, Json };
 struct Common {
   Format format = Format::Text;
   int quiet = 0;
+  bool progress = false;    ///< drawn even if stderr is no terminal
   std::size_t threads = 0;  ///< 0: all cores
 };
 
-/// Adds --quiet, --format and, where work is parallel, --threads.
+/// Adds --quiet, --progress, --format and, where work is parallel, --threads.
 void add_common_options(CLI::App& command, Common& common);
 
-/// The progress of the running command: drawn on stderr if that is a terminal and quiet is not set; cancelled
-/// by SIGINT and SIGTERM.
+/// The progress of the running command: drawn on stderr if that is a terminal or --progress asks for it, and
+/// quiet is not set; cancelled by SIGINT and SIGTERM.
 Progress& progress_of(const Common& common);
 
 /// Prints data to stdout whole. Throws: Error{WriteFailed} (a closed pipe, a full disk).

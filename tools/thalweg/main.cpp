@@ -119,6 +119,7 @@ int run(int argc, char** argv) {
 
 void add_common_options(CLI::App& command, Common& common) {
   command.add_flag("-q,--quiet", common.quiet, "no progress and no summary; only errors");
+  command.add_flag("--progress", common.progress, "draw progress also where stderr is no terminal");
   command.add_option("-f,--format", common.format, "what is printed: text or json")
       ->transform(CLI::CheckedTransformer(
           std::vector<std::pair<std::string, Format>>{{"text", Format::Text}, {"json", Format::Json}}))
@@ -134,7 +135,7 @@ Progress& progress_of(const Common& common) {
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
   }
-  const bool draw = common.quiet == 0 && isatty(STDERR_FILENO) != 0;
+  const bool draw = common.quiet == 0 && (common.progress || isatty(STDERR_FILENO) != 0);
   running = draw ? std::make_unique<Progress>(ProgressLine{}) : std::make_unique<Progress>();
   std::signal(SIGINT, stop_on_signal);
   std::signal(SIGTERM, stop_on_signal);

@@ -46,6 +46,7 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
   lines("--valleys", a.valleys, "valley lines; repeatable");
   lines("--breaklines", a.breaklines, "other lines that the TIN keeps; repeatable");
   lines("--boundary", a.boundary, "areas to keep; points outside are dropped; repeatable");
+  lines("--holes", a.holes, "areas to cut out; repeatable");
   command.add_option("--z-field", read.z_field, "attribute or column with the height of points");
   command.add_option("--line-z-field", read.line_z_field, "attribute with the height of lines");
   command.add_option("--kind-field", read.kind_field, "attribute that says ridge or valley");
@@ -81,6 +82,7 @@ void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vec
   add_lines(arguments.valleys, EdgeKind::Valley, lines);
   add_lines(arguments.breaklines, EdgeKind::Breakline, lines);
   add_lines(arguments.boundary, EdgeKind::Boundary, lines);
+  add_lines(arguments.holes, EdgeKind::Hole, lines);
   if (!arguments.bbox.empty()) read.bbox = parse_box("--bbox", arguments.bbox);
 }
 
