@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""The plugin in real QGIS, without a window: every algorithm by qgis_process, and cancel in the middle of a run.
+
+Usage: qgis_plugin.py BINARY SOURCE [FOLDER]. The exit status is 77 where QGIS is not installed. With a folder, the
+outputs stay there, and QGIS draws them to map.png.
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# Debian's wrapper hands on an option that the program does not know: the program itself, where it is there.
+QGIS_PROCESS = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+PYTHON = "/usr/bin/python3"
+
+CANCEL = """
+import os, sys, threading, time
+sys.path.append('/usr/share/qgis/python/plugins')
+from qgis.core import QgsApplication, QgsProcessingContext, QgsProcessingFeedback
+app = QgsApplication([], False)
+app.initQgis()
+from processing.core.Processing import Processing
+Processing.initialize()
+sys.path.append(os.environ['QGIS_PLUGINPATH'])
+import thalweg_tin
+plugin = thalweg_tin.classFactory(None)
+plugin.initProcessing()
+algorithm = QgsApplication.processingRegistry().algorithmById('thalweg:build')
+feedback = QgsProcessingFeedback()
+stop = {}
+def cancel():
+    stop['at'] = time.time()
+    feedback.cancel()
+threading.Timer(1.0, cancel).start()
+try:
+    algorithm.create().run({'INPUT': sys.argv[1], 'OUTPUT': sys.argv[2]}, QgsProcessingContext(), feedback,
+                           catchExceptions=False)
+    print('finished')
+except Exception as error:
+    print('stopped', time.time() - stop.get('at', 0) < 1.5, error)
+print('left', sorted(os.listdir(os.path.dirname(sys.argv[2]))))
+"""
+
+MAP = """
+import sys
+from qgis.core import (QgsApplication, QgsMapRendererParallelJob, QgsMapSettings, QgsMeshLayer, QgsVectorLayer,
+                       QgsRectangle, QgsRasterLayer)
+from qgis.PyQt.QtCore import QSize
+from qgis.PyQt.QtGui import QColor
+app = QgsApplication([], False)
+app.initQgis()
+mesh = QgsMeshLayer('tin.ply', 'tin', 'mdal')
+settings = mesh.rendererSettings()
+native = settings.nativeMeshSettings()
+native.setEnabled(True)
+settings.setNativeMeshSettings(native)
+mesh.setRendererSettings(settings)
+lines = QgsVectorLayer('layers.gpkg|layername=breaklines', 'lines', 'ogr')
+lines.renderer().symbol().setColor(QColor('#d02020'))
+lines.renderer().symbol().setWidth(0.8)
+contours = QgsVectorLayer('contours.gpkg', 'contours', 'ogr')
+contours.renderer().symbol().setColor(QColor('#804000'))
+pits = QgsVectorLayer('layers.gpkg|layername=vertices', 'pits', 'ogr')
+pits.setSubsetString('is_pit = 1')
+pits.renderer().symbol().setColor(QColor('#0040ff'))
+pits.renderer().symbol().setSize(3)
+settings = QgsMapSettings()
+settings.setLayers([pits, lines, contours, mesh])
+settings.setDestinationCrs(mesh.crs())
+settings.setExtent(mesh.extent())
+settings.setOutputSize(QSize(1400, 1050))
+job = QgsMapRendererParallelJob(settings)
+job.start()
+job.waitForFinished()
+job.renderedImage().save('map.png')
+print('layers', [l.isValid() for l in settings.layers()], mesh.crs().authid())
+"""
+
+
+class Bench:
+    """A QGIS with a profile of its own, in which only this plugin is switched on."""
+
+    def __init__(self, binary, source, folder):
+        self.folder = folder
+        self.failed = 0
+        home = os.path.join(folder, ".home")
+        plugins = os.path.join(folder, ".plugins")
+        os.makedirs(home, mode=0o700)
+        os.makedirs(plugins)
+        shutil.copytree(f"{source}/tools/qgis/thalweg_tin", f"{plugins}/thalweg_tin")
+        self.env = dict(os.environ, HOME=home, XDG_RUNTIME_DIR=home, QT_QPA_PLATFORM="offscreen", LC_ALL="C.UTF-8", PATH="/usr/bin:/bin",
+                        QGIS_PLUGINPATH=plugins, THALWEG_PROGRAM=binary, PYTHONDONTWRITEBYTECODE="1")
+
+    def run(self, *command):
+        done = subprocess.run(command, cwd=self.folder, env=self.env, capture_output=True, text=True, timeout=150)
+        return done.returncode, done.stdout + done.stderr
+
+    def check(self, name, right, text):
+        self.failed += not right
+        print(f"{'ok  ' if right else 'FAIL'} {name}" + ("" if right else f": {text[-1500:]}"), flush=True)
+
+    def algorithm(self, name, output, **parameters):
+        """Runs an algorithm and expects the file `output`."""
+        arguments = [f"{key}={value}" for key, values in parameters.items()
+                     for value in (values if isinstance(values, list) else [values])]
+        status, text = self.run(QGIS_PROCESS, "run", f"thalweg:{name}", *(f"--{a}" for a in arguments))
+        path = os.path.join(self.folder, output)
+        self.check(f"thalweg:{name} {output}", status == 0 and os.path.getsize(path) > 0
+                   if os.path.exists(path) else False, text)
+        return text
+
+
+def main():
+    if QGIS_PROCESS is None:
+        print("skip QGIS is not installed (qgis_process)")
+        return 77
+    binary, source = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+    with tempfile.TemporaryDirectory() as work:
+        folder = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else work
+        os.makedirs(folder, exist_ok=True)
+        bench = Bench(binary, source, folder)
+        bench.run(QGIS_PROCESS, "plugins", "enable", "thalweg_tin")
+        survey = pathlib.Path(source, "sample_terrains", "survey")
+        subprocess.run(["ogr2ogr", f"{folder}/points.gpkg", str(survey / "points.csv"), "-oo", "X_POSSIBLE_NAMES=x", "-oo",
+                        "Y_POSSIBLE_NAMES=y", "-oo", "AUTODETECT_TYPE=YES", "-a_srs", "EPSG:32632"], check=True)
+        lines = survey / "lines.gpkg"
+        bench.algorithm("build", "tin.ply", INPUT=f"{folder}/points.gpkg", Z_FIELD="z", VALLEYS=f"{lines}|layername=valleys",
+                        RIDGES=f"{lines}|layername=ridges", OUTPUT=f"{folder}/tin.ply", REPORT=f"{folder}/report.json",
+                        LAYERS=f"{folder}/layers.gpkg")
+        report = json.load(open(f"{folder}/report.json"))
+        bench.check("report", report["criteria"][0]["optimal"], str(report["criteria"]))
+        subprocess.run([binary, "build", f"{folder}/points.gpkg", f"{folder}/same.ply", "-q", "--z-field", "z",
+                        "--valleys", f"{lines}|layername=valleys", "--ridges", f"{lines}|layername=ridges"], check=True)
+        same = pathlib.Path(folder, "same.ply").read_bytes() == pathlib.Path(folder, "tin.ply").read_bytes()
+        bench.check("same bytes as the command line", same, "they differ")
+        tin = f"{folder}/tin.ply"
+        bench.algorithm("optimize", "delaunay.ply", INPUT=tin, OPTIMIZE="none", OUTPUT=f"{folder}/delaunay.ply")
+        bench.algorithm("orders", "quads.csv", INPUT=f"{folder}/points.gpkg", TRIANGLE="0,1,2",
+                        OUTPUT=f"{folder}/quads.csv")
+        bench.algorithm("tintoraster", "dem.tif", INPUT=tin, RESOLUTION=5, OUTPUT=f"{folder}/dem.tif")
+        bench.algorithm("contours", "contours.gpkg", INPUT=tin, INTERVAL=10, OUTPUT=f"{folder}/contours.gpkg")
+        bench.algorithm("tintolayers", "more.gpkg", INPUT=tin, OUTPUT=f"{folder}/more.gpkg")
+        bench.algorithm("export", "tin.xml", INPUT=tin, OUTPUT=f"{folder}/tin.xml")
+        status, text = bench.run(QGIS_PROCESS, "run", "thalweg:build", f"--INPUT={folder}/points.gpkg",
+                                 "--OPTIMIZE=beauty", f"--OUTPUT={folder}/no.ply")
+        bench.check("error in the program's words", status != 0 and "beauty" in text, text)
+
+        step = 0.5  # a million points: long enough to be stopped in the middle
+        with open(f"{folder}/many.csv", "w") as many:
+            for i in range(1000):
+                many.write("".join(f"{i * step},{j * step},{(i * j) % 97}\n" for j in range(1000)))
+        subprocess.run(["ogr2ogr", f"{folder}/many.gpkg", f"{folder}/many.csv", "-oo", "X_POSSIBLE_NAMES=field_1", "-oo",
+                        "Y_POSSIBLE_NAMES=field_2", "-oo", "Z_POSSIBLE_NAMES=field_3"], check=True)
+        os.makedirs(f"{folder}/stopped")
+        _, text = bench.run(PYTHON, "-c", CANCEL, f"{folder}/many.gpkg", f"{folder}/stopped/tin.ply")
+        bench.check("cancel stops at once and leaves nothing", "stopped True" in text and "left []" in text, text)
+        if len(sys.argv) > 3:
+            _, text = bench.run(PYTHON, "-c", MAP)
+            bench.check("map", "[True, True, True, True] EPSG:32632" in text, text)
+        print(f"{bench.failed} failed")
+        return 1 if bench.failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,44 @@
+"""The provider: its algorithms, its icon, and the setting that says where the program is."""
+
+import os
+
+from processing.core.ProcessingConfig import ProcessingConfig, Setting
+from qgis.core import QgsProcessingProvider
+from qgis.PyQt.QtGui import QIcon
+
+from .build import BuildTin
+from .convert import ExportTin, TinToContours, TinToLayers, TinToRaster
+from .optimize import OptimizeTin
+from .orders import ConstrainedOrders
+from .program import SETTING
+
+
+class ThalwegProvider(QgsProcessingProvider):
+    """Processing shows it as "Thalweg"."""
+
+    def id(self):  # noqa: A003
+        return "thalweg"
+
+    def name(self):
+        return "Thalweg"
+
+    def longName(self):  # noqa: N802
+        return "Thalweg terrain TINs"
+
+    def icon(self):
+        return QIcon(os.path.join(os.path.dirname(__file__), "icon.svg"))
+
+    def load(self):
+        ProcessingConfig.settingIcons["Thalweg"] = self.icon()
+        ProcessingConfig.addSetting(Setting("Thalweg", SETTING, "Thalweg program", "", valuetype=Setting.FILE))
+        ProcessingConfig.readSettings()
+        self.refreshAlgorithms()
+        return True
+
+    def unload(self):
+        ProcessingConfig.removeSetting(SETTING)
+
+    def loadAlgorithms(self):  # noqa: N802
+        for algorithm in (BuildTin, OptimizeTin, ConstrainedOrders, TinToRaster, TinToContours, TinToLayers,
+                          ExportTin):
+            self.addAlgorithm(algorithm())
