@@ -251,6 +251,28 @@ MetricFrame MetricFrame::for_extent(std::span<const Point2> lonlat_deg, Ellipsoi
   return choose(std::move(*best));
 }
 
+MetricFrame MetricFrame::from_proj_string(const std::string& text, Ellipsoid ellipsoid) {
+  const auto value = [&](const std::string& key) -> std::string {
+    const std::size_t at = text.find("+" + key + "=");
+    if (at == std::string::npos) return {};
+    const std::size_t begin = at + key.size() + 2;
+    return text.substr(begin, text.find(' ', begin) - begin);
+  };
+  const std::string name = value("proj");
+  const auto projection = name == "tmerc"  ? Projection::TransverseMercator
+                          : name == "lcc"  ? Projection::LambertConformalConic
+                          : name == "merc" ? Projection::Mercator
+                                           : Projection::PolarStereographic;
+  const std::string lon = value("lon_0"), lat = name == "merc" ? "0" : value("lat_0");
+  Extent extent;
+  extent.centre = {std::strtod(lon.c_str(), nullptr), std::strtod(lat.c_str(), nullptr)};
+  MetricFrame frame(std::make_shared<const Plane>(Plane::make(projection, extent, ellipsoid)));
+  if (lon.empty() || lat.empty() || frame.proj_string() != text) {
+    throw Error(ErrorCode::BadCrs, "'" + text + "' is no metric plane of this program and ellipsoid");
+  }
+  return frame;
+}
+
 Point2 MetricFrame::to_plane(Point2 lonlat_deg) const {
   check_position(lonlat_deg, 0);
   return plane_->image(wrap_180(lonlat_deg.x - plane_->centre.x), lonlat_deg.y).at;

@@ -26,6 +26,10 @@ Plane::Plane(const CrsInfo& crs, std::span<const Point2> extent) : crs_(crs) {
   frame_ = MetricFrame::for_extent(all_from_greenwich(crs, extent), ellipsoid());
 }
 
+Plane::Plane(const CrsInfo& crs, const std::string& proj_string) : crs_(crs) {
+  if (!proj_string.empty()) frame_ = MetricFrame::from_proj_string(proj_string, ellipsoid());
+}
+
 Point2 Plane::to_plane(Point2 written) const {
   return frame_ ? frame_->to_plane(from_greenwich(crs_, written)) : written;
 }

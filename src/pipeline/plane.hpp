@@ -23,6 +23,9 @@ class Plane {
   /// longitude and latitude.
   Plane(const CrsInfo& crs, std::span<const Point2> extent);
 
+  /// The plane that a report names; an empty string is the CRS's own. Throws: Error{BadCrs}.
+  Plane(const CrsInfo& crs, const std::string& proj_string);
+
   [[nodiscard]] bool projected() const { return frame_.has_value(); }
   [[nodiscard]] double metres_per_unit() const { return projected() ? 1 : crs_.horizontal_metres_per_unit; }
   [[nodiscard]] double vertical_metres_per_unit() const { return crs_.vertical_metres_per_unit; }

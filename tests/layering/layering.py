@@ -21,7 +21,7 @@ LAYERS = [
     ["mesh", "geodesy"],
     ["delaunay", "io"],
     ["order"],
-    ["optimize", "terrain"],
+    ["optimize", "terrain", "verify"],
     ["pipeline"],
     ["tools/thalweg", "tools/qgis", "src/capi"],
 ]

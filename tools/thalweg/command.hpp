@@ -36,6 +36,7 @@ void add_optimize_command(CLI::App& app);
 void add_convert_command(CLI::App& app);
 void add_order_command(CLI::App& app);
 void add_info_command(CLI::App& app);
+void add_verify_command(CLI::App& app);
 void add_view_command(CLI::App& app);
 void add_formats_command(CLI::App& app);
 

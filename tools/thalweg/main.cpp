@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
   add_convert_command(app);
   add_order_command(app);
   add_info_command(app);
+  add_verify_command(app);
   add_view_command(app);
   add_formats_command(app);
   try {

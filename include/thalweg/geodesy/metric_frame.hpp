@@ -46,6 +46,9 @@ class MetricFrame {
   /// unless the arc is 180 degrees or wider: then a sort.
   static MetricFrame for_extent(std::span<const Point2> lonlat_deg, Ellipsoid ellipsoid = {});
 
+  /// The frame that `proj_string` describes. Throws: Error{BadCrs} for a string that is none of its.
+  static MetricFrame from_proj_string(const std::string& text, Ellipsoid ellipsoid = {});
+
   /// Throws: Error{BadCoordinate} for a value that is not finite or out of range.
   [[nodiscard]] Point2 to_plane(Point2 lonlat_deg) const;
   /// All positions, on all threads. Throws: as for one, and Error{Cancelled}.

@@ -1,0 +1,36 @@
+#pragma once
+
+/// A TIN file re-checked against what its report claims.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/order/definition.hpp>
+#include <thalweg/verify/verify.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+struct VerifyConfig {
+  std::string input;                          ///< TIN file
+  std::string report_path;                    ///< JSON report; empty: only what needs none is checked
+  std::optional<OrderDefinition> definition;  ///< none: the report's, else sees-opp
+  std::optional<unsigned> order;              ///< none: the report's, else 1
+};
+
+struct VerifyResult {
+  std::string path;
+  std::vector<verify::Finding> findings;
+  /// True if no line is broken; lines that were not checked are no reason for or against.
+  [[nodiscard]] bool holds() const;
+};
+
+/// Reads the file as it is and checks it (see verify::check) in the plane that the report names, else in that
+/// of the file's own extent. Throws: what reading throws; Error{BadFormat} for a report that is none.
+VerifyResult verify_tin(const VerifyConfig& config, Progress& progress);
+
+std::string to_json(const VerifyResult& result);
+std::string to_text(const VerifyResult& result);
+
+}  // namespace thalweg

@@ -1,0 +1,162 @@
+// Files and claims for the verifier; nothing is decided here.
+#include "pipeline/plane.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/io/read_tin.hpp>
+#include <thalweg/pipeline/verify_tin.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+namespace thalweg {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using verify::Finding;
+using verify::Verdict;
+
+Json read_report(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ErrorCode::NotFound, path + " cannot be opened; give the report of a build");
+  try {
+    Json report = Json::parse(file);
+    if (!report.is_object() || !report.contains("thalweg")) {
+      throw Error(ErrorCode::BadFormat, path + " is no report of this program; give what --report wrote");
+    }
+    return report;
+  } catch (const Json::exception& error) {
+    throw Error(ErrorCode::BadFormat, path + " is no JSON: " + error.what());
+  }
+}
+
+template <class T>
+std::optional<T> read(const Json& report, const std::string& pointer) {
+  const Json::json_pointer at(pointer);
+  if (!report.contains(at) || report.at(at).is_null()) return std::nullopt;
+  return report.at(at).get<T>();
+}
+
+std::optional<verify::PitsClaim> read_pits(const Json& report, const std::string& which) {
+  const auto interior = read<std::size_t>(report, "/pits/" + which + "/interior");
+  if (!interior) return std::nullopt;
+  return verify::PitsClaim{.interior = *interior,
+                           .boundary = read<std::size_t>(report, "/pits/" + which + "/boundary").value_or(0),
+                           .lake = read<std::size_t>(report, "/pits/" + which + "/lake").value_or(0)};
+}
+
+verify::Claims read_claims(const Json& report) {
+  verify::Claims claims;
+  claims.digest = read<std::string>(report, "/digest");
+  claims.vertices = read<std::size_t>(report, "/tin/vertices");
+  claims.triangles = read<std::size_t>(report, "/tin/triangles");
+  claims.edges = read<std::size_t>(report, "/tin/edges");
+  claims.constraint_edges = read<std::size_t>(report, "/tin/constraint_edges");
+  claims.quadrilaterals = read<std::size_t>(report, "/first_order/quadrilaterals");
+  claims.flipped = read<std::size_t>(report, "/first_order/flipped");
+  for (const Json& c : report.value("criteria", Json::array())) {
+    claims.criteria.push_back({.name = c.at("name").get<std::string>(),
+                               .delaunay = c.at("delaunay").get<double>(),
+                               .result = c.at("result").get<double>(),
+                               .bound = c.at("bound").get<double>(),
+                               .optimal = c.at("optimal").get<bool>()});
+  }
+  claims.pits_delaunay = read_pits(report, "delaunay");
+  claims.pits_result = read_pits(report, "result");
+  return claims;
+}
+
+/// The largest order that the report allows: one with first-order quadrilaterals allows 1.
+unsigned order_of(const Json& report) {
+  const auto order = read<unsigned>(report, "/tin/max_order").value_or(1);
+  const bool first_order = read<std::size_t>(report, "/first_order/quadrilaterals").value_or(0) > 0;
+  return std::max(order, first_order ? 1U : 0U);
+}
+
+std::string_view verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Holds:
+      return "holds";
+    case Verdict::Broken:
+      return "BROKEN";
+    case Verdict::NotChecked:
+      break;
+  }
+  return "not checked";
+}
+
+}  // namespace
+
+bool VerifyResult::holds() const {
+  return std::none_of(findings.begin(), findings.end(),
+                      [](const Finding& finding) { return finding.verdict == Verdict::Broken; });
+}
+
+VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
+  progress.start_phase("read");
+  const TinFile file = read_tin(config.input, progress);
+  const CrsInfo crs = describe_crs(file.crs);
+  std::optional<Json> report;
+  if (!config.report_path.empty()) report = read_report(config.report_path);
+  try {
+    const auto proj_string = report ? read<std::string>(*report, "/crs/metric_projection") : std::nullopt;
+    const Plane plane = proj_string ? Plane(crs, *proj_string) : Plane(crs, file.points);
+    const std::vector<Point2> points = plane.to_plane(file.points, progress);
+    const std::vector<Point2> continuous =
+        plane.projected() ? plane.to_lonlat(file.points) : std::vector<Point2>();
+    const verify::Claims claims = report ? read_claims(*report) : verify::Claims();
+    verify::Subject subject{.points = points,
+                            .written = file.points,
+                            .continuous = continuous,
+                            .heights = file.heights,
+                            .triangles = file.triangles,
+                            .constraints = file.constraints,
+                            .horizontal_metres_per_unit = plane.metres_per_unit(),
+                            .vertical_metres_per_unit = plane.vertical_metres_per_unit()};
+    if (report) {
+      subject.order = order_of(*report);
+      const auto name = read<std::string>(*report, "/first_order/definition");
+      if (name && !name->empty()) subject.definition = parse_definition(*name);
+    }
+    if (config.order) subject.order = *config.order;
+    if (config.definition) subject.definition = *config.definition;
+    return {config.input, verify::check(subject, claims, progress)};
+  } catch (const Json::exception& error) {
+    throw Error(ErrorCode::BadFormat,
+                config.report_path + ": a key does not hold what it should: " + error.what());
+  }
+}
+
+std::string to_json(const VerifyResult& result) {
+  Json lines = Json::array();
+  for (const Finding& f : result.findings) {
+    const std::string_view verdict = f.verdict == Verdict::Broken ? "broken" : verdict_name(f.verdict);
+    lines.push_back({{"claim", f.claim}, {"verdict", verdict}, {"detail", f.detail}});
+  }
+  const Json json = {{"path", result.path}, {"holds", result.holds()}, {"findings", lines}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const VerifyResult& result) {
+  std::size_t width = 0, broken = 0, unchecked = 0;
+  for (const Finding& f : result.findings) width = std::max(width, f.claim.size());
+  std::string text;
+  for (const Finding& f : result.findings) {
+    broken += f.verdict == Verdict::Broken ? 1 : 0;
+    unchecked += f.verdict == Verdict::NotChecked ? 1 : 0;
+    const std::string line =
+        fmt::format("{:<{}}  {:<11}  {}", f.claim, width, verdict_name(f.verdict), f.detail);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  text += fmt::format("{}: {} claims hold, {} broken, {} not checked\n", result.path,
+                      result.findings.size() - broken - unchecked, broken, unchecked);
+  return text;
+}
+
+}  // namespace thalweg

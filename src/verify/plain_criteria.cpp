@@ -1,0 +1,355 @@
+// Values by one loop over triangles, edges or vertices.
+//
+// Terms are computed in extended precision by other formulas than the optimiser's, then rounded to steps of
+// 2^-32, so they may differ by one step. Whether an edge is convex is decided exactly: the sign of the volume
+// of its four corners.
+#include "verify/plain_criteria.hpp"
+
+#include "verify/exact.hpp"
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+namespace thalweg::verify {
+
+namespace {
+
+using Extended = long double;
+constexpr Extended kSteps = 0x1p32L;
+constexpr Extended kDegrees = 180 / std::numbers::pi_v<Extended>;
+
+std::int64_t to_steps(Extended value) {
+  constexpr Extended kMost = 0x1p30L;
+  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kMost, kMost) * kSteps + 0.5L));
+}
+
+struct Known {
+  const char* name;
+  Depends depends;
+  Combines combines;
+  bool maximised;
+  bool counts;
+};
+
+constexpr std::array<Known, 15> kKnown = {
+    {{"local-minima", Depends::OnPlateau, Combines::Sum, false, true},
+     {"normal-angle-sum", Depends::OnEdge, Combines::Sum, false, false},
+     {"normal-angle-squares", Depends::OnEdge, Combines::Sum, false, false},
+     {"normal-angle-max", Depends::OnEdge, Combines::Largest, false, false},
+     {"max-area", Depends::OnTriangle, Combines::Largest, false, false},
+     {"max-angle", Depends::OnTriangle, Combines::Largest, false, false},
+     {"min-angle", Depends::OnTriangle, Combines::Smallest, true, false},
+     {"edge-length", Depends::OnEdge, Combines::Sum, false, false},
+     {"area-ratio-max", Depends::OnEdge, Combines::Largest, false, false},
+     {"area-ratio-sum", Depends::OnEdge, Combines::Sum, false, false},
+     {"convex-edges", Depends::OnEdge, Combines::Sum, true, true},
+     {"flat-triangles", Depends::OnTriangle, Combines::Sum, false, true},
+     {"convex-vertices", Depends::OnVertex, Combines::Sum, true, true},
+     {"mixed-vertices", Depends::OnVertex, Combines::Sum, false, true},
+     {"max-degree", Depends::OnVertex, Combines::Largest, false, true}}};
+
+const Known* find_known(const std::string& name) {
+  const auto* known =
+      std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& k) { return name == k.name; });
+  return known == kKnown.end() ? nullptr : known;
+}
+
+// Twice the area in the plane, in square metres.
+Extended doubled_area(const PlainMesh& mesh, PlainScale scale, Index a, Index b, Index c) {
+  const Point2 p = mesh.at(a), q = mesh.at(b), r = mesh.at(c);
+  return ((Extended{q.x} - p.x) * (Extended{r.y} - p.y) - (Extended{q.y} - p.y) * (Extended{r.x} - p.x)) *
+         scale.horizontal * scale.horizontal;
+}
+
+struct Slope {
+  Extended x, y;
+};
+
+// The slope of a triangle's plane: its upward normal is (-x, -y, 1).
+Slope slope_of(const PlainMesh& mesh, PlainScale scale, Index a, Index b, Index c) {
+  const Extended bx = (Extended{mesh.at(b).x} - mesh.at(a).x) * scale.horizontal,
+                 by = (Extended{mesh.at(b).y} - mesh.at(a).y) * scale.horizontal,
+                 cx = (Extended{mesh.at(c).x} - mesh.at(a).x) * scale.horizontal,
+                 cy = (Extended{mesh.at(c).y} - mesh.at(a).y) * scale.horizontal,
+                 bz = (Extended{mesh.z[b]} - mesh.z[a]) * scale.vertical,
+                 cz = (Extended{mesh.z[c]} - mesh.z[a]) * scale.vertical;
+  const Extended area = bx * cy - by * cx;
+  return {(bz * cy - cz * by) / area, (cz * bx - bz * cx) / area};
+}
+
+// The angle between (-x, -y, 1) and (-x', -y', 1): its tangent is the length of the cross product over the
+// dot.
+Extended normal_angle(const PlainMesh& mesh, PlainScale scale, Index a, Index b, Index l, Index r) {
+  const Slope m = slope_of(mesh, scale, a, b, l), n = slope_of(mesh, scale, b, a, r);
+  const Extended dx = n.x - m.x, dy = n.y - m.y, twist = m.x * n.y - m.y * n.x;
+  return std::atan2(std::sqrt(dx * dx + dy * dy + twist * twist), 1 + m.x * n.x + m.y * n.y);
+}
+
+Extended corner_angle(const PlainMesh& mesh, Index at, Index b, Index c) {
+  const Extended bx = Extended{mesh.at(b).x} - mesh.at(at).x, by = Extended{mesh.at(b).y} - mesh.at(at).y,
+                 cx = Extended{mesh.at(c).x} - mesh.at(at).x, cy = Extended{mesh.at(c).y} - mesh.at(at).y;
+  return std::atan2(std::abs(bx * cy - by * cx), bx * cx + by * cy) * kDegrees;
+}
+
+// +1 if the surface is convex along the edge (a ridge), -1 if reflex, 0 if flat.
+int bend(const PlainMesh& mesh, Index a, Index b, Index l, Index r) {
+  const auto difference = [&](Index v) {
+    return std::array<Extended, 3>{Extended{mesh.at(v).x} - mesh.at(a).x,
+                                   Extended{mesh.at(v).y} - mesh.at(a).y, Extended{mesh.z[v]} - mesh.z[a]};
+  };
+  const auto p = difference(b), q = difference(l), s = difference(r);
+  Extended volume = 0, magnitude = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    volume += s[i] * (p[j] * q[k] - p[k] * q[j]);
+    magnitude += std::abs(s[i]) * (std::abs(p[j] * q[k]) + std::abs(p[k] * q[j]));
+  }
+  // The volume is that of r above the plane of a, b, l: below it is convex.
+  if (std::abs(volume) > magnitude * 0x1p-58L) return volume < 0 ? 1 : -1;
+  using Rational = boost::multiprecision::cpp_rational;
+  const auto exact = [&](Index v) {
+    return std::array<Rational, 3>{Rational(mesh.at(v).x) - Rational(mesh.at(a).x),
+                                   Rational(mesh.at(v).y) - Rational(mesh.at(a).y),
+                                   Rational(mesh.z[v]) - Rational(mesh.z[a])};
+  };
+  const auto ep = exact(b), eq = exact(l), es = exact(r);
+  Rational sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    sum += es[i] * (ep[j] * eq[k] - ep[k] * eq[j]);
+  }
+  return -sum.sign();
+}
+
+Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const std::string& name, Index a, Index b,
+                       Index c) {
+  if (name == "max-area") return doubled_area(mesh, scale, a, b, c) / 2;
+  if (name == "flat-triangles") return mesh.z[a] == mesh.z[b] && mesh.z[b] == mesh.z[c] ? 1 : 0;
+  const Extended first = corner_angle(mesh, a, b, c), second = corner_angle(mesh, b, c, a),
+                 third = corner_angle(mesh, c, a, b);
+  return name == "max-angle" ? std::max({first, second, third}) : std::min({first, second, third});
+}
+
+Extended edge_part(const PlainMesh& mesh, PlainScale scale, const std::string& name, Index a, Index b,
+                   Index l, Index r) {
+  constexpr Extended kLargestRatio = 0x1p20L;
+  if (name == "edge-length") {
+    return std::hypot(Extended{mesh.at(b).x} - mesh.at(a).x, Extended{mesh.at(b).y} - mesh.at(a).y) *
+           scale.horizontal;
+  }
+  if (name == "convex-edges") return bend(mesh, a, b, l, r) > 0 ? 1 : 0;
+  if (name.starts_with("area-ratio")) {
+    const Extended left = doubled_area(mesh, scale, a, b, l), right = doubled_area(mesh, scale, b, a, r);
+    return std::min(std::max(left, right) / std::min(left, right), kLargestRatio);
+  }
+  const Extended angle = normal_angle(mesh, scale, a, b, l, r);
+  if (name == "normal-angle-squares") return angle * angle;
+  return name == "normal-angle-max" ? angle * kDegrees : angle;
+}
+
+// Calls f(a, b, l, r) for every edge with triangles on both sides.
+template <class F>
+void for_inner_edges(const PlainMesh& mesh, const F& f) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index other = mesh.across[t][i];
+      if (other == kNone || other < t) continue;
+      const Index a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
+      Index r = kNone;
+      for (const Index v : mesh.triangles[other]) {
+        if (v != a && v != b) r = v;
+      }
+      f(a, b, mesh.triangles[t][(i + 2) % 3], r);
+    }
+  }
+}
+
+std::vector<bool> rim_of(const PlainMesh& mesh) {
+  std::vector<bool> rim(mesh.xy.size(), false);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mesh.across[t][i] != kNone) continue;
+      rim[mesh.triangles[t][i]] = rim[mesh.triangles[t][(i + 1) % 3]] = true;
+    }
+  }
+  return rim;
+}
+
+Extended vertex_value(const PlainMesh& mesh, const std::string& name) {
+  struct Ring {
+    std::size_t edges = 0, convex = 0, reflex = 0;
+  };
+  std::vector<Ring> rings(mesh.xy.size());
+  for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
+    const int side = name == "max-degree" ? 0 : bend(mesh, a, b, l, r);
+    for (const Index v : {a, b}) {
+      ++rings[v].edges;
+      rings[v].convex += side > 0 ? 1 : 0;
+      rings[v].reflex += side < 0 ? 1 : 0;
+    }
+  });
+  if (name == "max-degree") {
+    std::size_t most = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (mesh.across[t][i] != kNone) continue;
+        ++rings[mesh.triangles[t][i]].edges;
+        ++rings[mesh.triangles[t][(i + 1) % 3]].edges;
+      }
+    }
+    for (const Ring& ring : rings) most = std::max(most, ring.edges);
+    return static_cast<Extended>(most);
+  }
+  const std::vector<bool> rim = rim_of(mesh);
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < rings.size(); ++v) {
+    if (rim[v] || rings[v].edges == 0) continue;
+    const bool counted = name == "convex-vertices" ? rings[v].convex == rings[v].edges
+                                                   : rings[v].convex > 0 && rings[v].reflex > 0;
+    count += counted ? 1 : 0;
+  }
+  return static_cast<Extended>(count);
+}
+
+// A set's representative, with the path to it halved on the way.
+Index find(std::vector<Index>& parent, Index v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+}  // namespace
+
+std::optional<PlainCriterion> plain_criterion(const std::string& name) {
+  PlainCriterion criterion;
+  if (const Known* known = find_known(name)) {
+    criterion = {{{1, name}}, known->depends, known->combines, known->maximised, known->counts};
+    return criterion;
+  }
+  criterion.counts = false;
+  std::size_t at = 0;
+  while (at < name.size()) {
+    std::size_t used = 0;
+    double weight = 0;
+    try {
+      weight = std::stod(name.substr(at), &used);
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+    at += used;
+    if (at >= name.size() || name[at] != '*') return std::nullopt;
+    std::size_t end = at + 1;  // a name holds hyphens: the next part begins at a sign before a digit
+    while (end < name.size() &&
+           !((name[end] == '+' || name[end] == '-') && end + 1 < name.size() &&
+             (std::isdigit(static_cast<unsigned char>(name[end + 1])) != 0 || name[end + 1] == '.'))) {
+      ++end;
+    }
+    const std::string part = name.substr(at + 1, end - at - 1);
+    const Known* known = find_known(part);
+    if (known == nullptr || known->combines != Combines::Sum || known->depends == Depends::OnPlateau) {
+      return std::nullopt;
+    }
+    criterion.parts.push_back({weight, part});
+    criterion.depends = std::max(criterion.depends, known->depends);
+    at = end;
+  }
+  return criterion.parts.empty() ? std::nullopt : std::optional(criterion);
+}
+
+std::int64_t triangle_term(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion, Index a,
+                           Index b, Index c) {
+  std::int64_t steps = 0;
+  for (const PlainCriterion::Part& part : criterion.parts) {
+    if (find_known(part.name)->depends != Depends::OnTriangle) continue;
+    steps += to_steps(part.weight * triangle_part(mesh, scale, part.name, a, b, c));
+  }
+  return steps;
+}
+
+std::int64_t edge_term(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion, Index a,
+                       Index b, Index l, Index r) {
+  std::int64_t steps = 0;
+  for (const PlainCriterion::Part& part : criterion.parts) {
+    if (find_known(part.name)->depends != Depends::OnEdge) continue;
+    steps += to_steps(part.weight * edge_part(mesh, scale, part.name, a, b, l, r));
+  }
+  return steps;
+}
+
+PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion) {
+  if (criterion.depends == Depends::OnPlateau) return {static_cast<Extended>(count_pits(mesh).interior), 0};
+  Extended vertices = 0;
+  for (const PlainCriterion::Part& part : criterion.parts) {
+    if (find_known(part.name)->depends == Depends::OnVertex) {
+      vertices += part.weight * vertex_value(mesh, part.name);
+    }
+  }
+  std::vector<std::int64_t> terms;
+  for (const Corners& t : mesh.triangles) {
+    if (criterion.depends != Depends::OnVertex || criterion.parts.size() > 1) {
+      const bool any = criterion.depends == Depends::OnTriangle || criterion.parts.size() > 1;
+      if (any) terms.push_back(triangle_term(mesh, scale, criterion, t[0], t[1], t[2]));
+    }
+  }
+  if (criterion.depends == Depends::OnEdge || criterion.parts.size() > 1) {
+    for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
+      terms.push_back(edge_term(mesh, scale, criterion, a, b, l, r));
+    });
+  }
+  if (criterion.combines != Combines::Sum && criterion.depends != Depends::OnVertex) {
+    const auto [least, most] = std::minmax_element(terms.begin(), terms.end());
+    if (terms.empty()) return {};
+    const Extended value =
+        static_cast<Extended>(criterion.combines == Combines::Largest ? *most : *least) / kSteps;
+    return {value, 2 / kSteps + std::abs(value) * 1e-12L};
+  }
+  const Extended sum =
+      std::accumulate(terms.begin(), terms.end(), Extended{0},
+                      [](Extended s, std::int64_t t) { return s + static_cast<Extended>(t); });
+  const Extended parts = static_cast<Extended>(criterion.parts.size());
+  const Extended tolerance = criterion.counts ? 0
+                                              : static_cast<Extended>(terms.size()) * parts / kSteps +
+                                                    std::abs(sum / kSteps) * 1e-12L;
+  return {vertices + sum / kSteps, tolerance};
+}
+
+PlainPits count_pits(const PlainMesh& mesh) {
+  std::vector<Index> parent(mesh.xy.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto for_edges = [&](const auto& f) {
+    for (const Corners& t : mesh.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) f(t[i], t[(i + 1) % 3]);
+    }
+  };
+  for_edges([&](Index a, Index b) {
+    if (mesh.z[a] == mesh.z[b]) parent[find(parent, a)] = find(parent, b);
+  });
+  std::vector<bool> drained(parent.size(), false), outlet(parent.size(), false), lake(parent.size(), false),
+      used(parent.size(), false);
+  for_edges([&](Index a, Index b) {
+    used[find(parent, a)] = true;
+    if (mesh.z[a] < mesh.z[b]) drained[find(parent, b)] = true;
+    if (mesh.z[b] < mesh.z[a]) drained[find(parent, a)] = true;
+  });
+  for (const auto& [edge, kind] : mesh.constraints) {
+    if (has(kind, EdgeKind::Lake) && mesh.z[edge.first] == mesh.z[edge.second])
+      lake[find(parent, edge.first)] = true;
+  }
+  const std::vector<bool> rim = rim_of(mesh);
+  for (Index v = 0; v < rim.size(); ++v) {
+    if (rim[v]) outlet[find(parent, v)] = true;
+  }
+  PlainPits pits;
+  for (Index v = 0; v < parent.size(); ++v) {
+    if (parent[v] != v || drained[v] || !used[v]) continue;
+    ++(outlet[v] ? pits.boundary : lake[v] ? pits.lake : pits.interior);
+  }
+  return pits;
+}
+
+}  // namespace thalweg::verify

@@ -1,0 +1,295 @@
+// Bounds, one criterion after the other.
+//
+// 1. Every term of every criterion becomes a factor over at most two quadrilaterals. Costs are vectors, so
+// that
+//    criteria are compared in the order of their priority. The first component counts broken conditions: a
+//    clause of the pits, a value above that of a largest-value criterion before.
+// 2. Pits come first or are not checked: their fewest number is that of connected plateaus, and the condition
+// on
+//    what follows are clauses, more of them until the labels found keep all.
+// 3. Sums: the least cost of all sums so far. Largest values: no labelling keeps every value below the bound.
+#include "verify/plain_optimum.hpp"
+
+#include "verify/plain_pits.hpp"
+#include "verify/plain_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace thalweg::verify {
+
+namespace {
+
+constexpr std::size_t kWidthLimit = 20;
+constexpr long double kSteps = 0x1p32L;
+
+/// One component of the costs: the terms of a sum, or a count of terms beyond a limit.
+struct Component {
+  PlainCriterion criterion;
+  bool counts_beyond = false;
+  std::int64_t limit = 0;  ///< in steps; largest: terms of this and more count; smallest: of this and less
+  std::size_t place = 0;   ///< in the cost
+};
+
+class Terms {
+ public:
+  Terms(const PlainProblem& problem, const std::vector<Component>& components)
+      : problem_(problem), components_(components) {}
+
+  std::vector<Factor> factors() {
+    const PlainMesh& mesh = problem_.delaunay;
+    quadrilateral_of_.assign(mesh.triangles.size(), kNone);
+    for (Index q = 0; q < problem_.quadrilaterals.size(); ++q) {
+      const auto& [s, u, t, v, left, right] = problem_.quadrilaterals[q];
+      quadrilateral_of_[left] = quadrilateral_of_[right] = q;
+      add({q}, {plus(triangle(u, v, s), triangle(v, u, t)), plus(triangle(s, u, t), triangle(t, v, s))});
+      add({q}, {edge(u, v, s, t), edge(s, t, v, u)});
+    }
+    for (Index t = 0; t < mesh.triangles.size(); ++t) {
+      const Corners& c = mesh.triangles[t];
+      if (quadrilateral_of_[t] == kNone) add({}, {triangle(c[0], c[1], c[2])});
+      for (Index i = 0; i < 3; ++i) {
+        const Index other = mesh.across[t][i];
+        if (other != kNone && t < other) add_side(t, other, c[i], c[(i + 1) % 3], c[(i + 2) % 3]);
+      }
+    }
+    std::vector<Factor> factors;
+    for (auto& [scope, table] : tables_) factors.push_back({scope, std::move(table)});
+    return factors;
+  }
+
+ private:
+  static Cost plus(const Cost& a, const Cost& b) {
+    Cost sum{};
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = a[i] + b[i];
+    return sum;
+  }
+
+  // Between two triangles, at least one of which may be of a quadrilateral.
+  void add_side(Index t, Index other, Index a, Index b, Index l) {
+    const Index p = quadrilateral_of_[t], q = quadrilateral_of_[other];
+    if (p == q && p != kNone) return;  // its diagonal
+    Index r = kNone;
+    for (const Index v : problem_.delaunay.triangles[other]) {
+      if (v != a && v != b) r = v;
+    }
+    const auto apex = [&](Index quadrilateral, bool label, Index delaunay_apex) {
+      if (quadrilateral == kNone || !label) return delaunay_apex;
+      const PlainQuadrilateral& which = problem_.quadrilaterals[quadrilateral];
+      return which.s == a || which.s == b ? which.t : which.s;  // the end of st that is not on the side
+    };
+    if (p == kNone && q == kNone) {
+      add({}, {edge(a, b, l, r)});
+    } else if (p == kNone || q == kNone) {
+      const Index one = p == kNone ? q : p;
+      add({one}, {edge(a, b, l, r), edge(a, b, apex(p, true, l), apex(q, true, r))});
+    } else {
+      std::vector<Cost> table;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const bool low = (i & 1U) != 0, high = (i & 2U) != 0;
+        table.push_back(edge(a, b, apex(p, p < q ? low : high, l), apex(q, p < q ? high : low, r)));
+      }
+      add({std::min(p, q), std::max(p, q)}, table);
+    }
+  }
+
+  void add(const std::vector<Index>& scope, const std::vector<Cost>& table) {
+    std::vector<Cost>& sum = tables_[scope];
+    sum.resize(table.size());
+    for (std::size_t i = 0; i < table.size(); ++i) sum[i] = plus(sum[i], table[i]);
+  }
+
+  [[nodiscard]] std::int64_t counted(const Component& component, std::int64_t term) const {
+    const PlainCriterion& criterion = component.criterion;
+    if (!component.counts_beyond) return criterion.maximised ? -term : term;
+    return (criterion.combines == Combines::Largest ? term >= component.limit : term <= component.limit) ? 1
+                                                                                                         : 0;
+  }
+  [[nodiscard]] Cost triangle(Index a, Index b, Index c) const {
+    Cost cost{};
+    for (const Component& component : components_) {
+      if (component.criterion.depends == Depends::OnEdge && component.criterion.parts.size() == 1) continue;
+      cost[component.place] +=
+          counted(component, triangle_term(problem_.delaunay, problem_.scale, component.criterion, a, b, c));
+    }
+    return cost;
+  }
+  [[nodiscard]] Cost edge(Index a, Index b, Index l, Index r) const {
+    Cost cost{};
+    for (const Component& component : components_) {
+      if (component.criterion.depends == Depends::OnTriangle) continue;
+      cost[component.place] +=
+          counted(component, edge_term(problem_.delaunay, problem_.scale, component.criterion, a, b, l, r));
+    }
+    return cost;
+  }
+
+  const PlainProblem& problem_;
+  const std::vector<Component>& components_;
+  std::vector<Index> quadrilateral_of_;
+  std::map<std::vector<Index>, std::vector<Cost>> tables_;
+};
+
+class BoundChecker {
+ public:
+  BoundChecker(const PlainProblem& problem, Progress& progress)
+      : problem_(problem), progress_(progress), plateaus_(problem.delaunay, problem.quadrilaterals) {}
+
+  Finding check(const CriterionClaim& claim) {
+    Finding finding{claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked, {}};
+    const auto criterion = plain_criterion(claim.name);
+    if (claim.optimal && claim.bound != claim.result) {
+      finding.verdict = Verdict::Broken;
+      finding.detail = fmt::format("called optimal, but the bound is {:.17g}, the result {:.17g}",
+                                   claim.bound, claim.result);
+      return finding;
+    }
+    if (!reason_.empty()) {
+      finding.detail = reason_;
+      return finding;
+    }
+    if (!criterion) {
+      reason_ = "a criterion before has no plain formula";
+      finding.detail = "the verifier has no formula for it, or no reference";
+    } else if (criterion->depends == Depends::OnPlateau) {
+      check_pits(claim, finding);
+    } else if (criterion->depends == Depends::OnVertex) {
+      finding.detail = "a vertex criterion: its optimum is not proved again";
+      reason_ = "a vertex criterion stands before";
+    } else if (criterion->combines == Combines::Sum) {
+      check_sum(claim, *criterion, finding);
+    } else {
+      check_extreme(claim, *criterion, finding);
+    }
+    ++level_;
+    if (reason_.empty() && !claim.optimal) reason_ = "a criterion before is not optimal, only held";
+    if (finding.verdict == Verdict::Broken) reason_ = "a criterion before does not hold";
+    return finding;
+  }
+
+ private:
+  void check_pits(const CriterionClaim& claim, Finding& finding) {
+    if (level_ > 0) {
+      finding.detail = reason_ = "pits are proved again only where they come first";
+      return;
+    }
+    const auto fewest = static_cast<double>(plateaus_.fewest());
+    judge(claim.bound <= fewest && (!claim.optimal || claim.result <= fewest), "plateaus and diagonals allow",
+          fewest, finding);
+    clauses_ = plateaus_.plateau_clauses();
+    with_pits_ = true;
+  }
+
+  static void judge(bool holds, const char* what, long double value, Finding& finding) {
+    finding.verdict = holds ? Verdict::Holds : Verdict::Broken;
+    finding.detail = holds ? "proved again" : fmt::format("{} {:.17g}", what, static_cast<double>(value));
+  }
+
+  // The least cost under all conditions; none if too wide.
+  std::optional<Cost> least(const std::vector<Component>& components) {
+    constexpr int kMostRounds = 30;
+    const std::vector<Factor> terms = Terms(problem_, components).factors();
+    for (int round = 0; round < kMostRounds; ++round) {
+      std::vector<Factor> factors = terms;
+      factors.insert(factors.end(), clauses_.begin(), clauses_.end());
+      const auto optimum =
+          minimise(problem_.quadrilaterals.size(), std::move(factors), kWidthLimit, progress_);
+      if (!optimum || !with_pits_) return optimum ? std::optional(optimum->cost) : std::nullopt;
+      std::vector<Factor> more = plateaus_.broken_clauses(optimum->labels);
+      if (more.empty()) return optimum->cost;
+      clauses_.insert(clauses_.end(), more.begin(), more.end());
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<Component> components_before() const {
+    std::vector<Component> components = conditions_;
+    components.insert(components.end(), sums_.begin(), sums_.end());
+    return components;
+  }
+
+  void check_sum(const CriterionClaim& claim, const PlainCriterion& criterion, Finding& finding) {
+    if (sums_.size() + 2 > Cost{}.size()) {
+      finding.detail = reason_ = "more criteria than the verifier's costs have components";
+      return;
+    }
+    sums_.push_back({.criterion = criterion, .place = sums_.size() + 1});
+    const auto cost = least(components_before());
+    if (!cost) {
+      finding.detail = reason_ = "too wide for the plain solver";
+      return;
+    }
+    const long double sign = criterion.maximised ? -1 : 1;
+    const long double proved = static_cast<long double>((*cost)[sums_.back().place]) / kSteps;
+    const long double tolerance =
+        criterion.counts ? 0 : value_of(problem_.delaunay, problem_.scale, criterion).tolerance;
+    const bool bounded = sign * claim.bound <= proved + tolerance;
+    const bool reached = !claim.optimal || sign * claim.result <= proved + tolerance;
+    judge(bounded && reached, "the optimum is", sign * proved, finding);
+  }
+
+  void check_extreme(const CriterionClaim& claim, const PlainCriterion& criterion, Finding& finding) {
+    if (sums_.size() + 2 > Cost{}.size()) {
+      finding.detail = reason_ = "more criteria than the verifier's costs have components";
+      return;
+    }
+    constexpr std::int64_t kSlack = 2;  // steps: another correct rounding
+    const bool largest = criterion.combines == Combines::Largest;
+    const auto steps = [](double value) {
+      return static_cast<std::int64_t>(std::floor(value * kSteps + 0.5L));
+    };
+    const std::int64_t slack = kSlack + static_cast<std::int64_t>(std::abs(claim.bound) * 1e-12 * kSteps);
+    std::vector<Component> components = components_before();
+    components.push_back(
+        {criterion, true, steps(claim.bound) + (largest ? -slack : slack), sums_.size() + 1});
+    const auto cost = least(components);
+    if (!cost) {
+      finding.detail = reason_ = "too wide for the plain solver";
+      return;
+    }
+    judge((*cost)[sums_.size() + 1] > 0, "a labelling is better than", claim.bound, finding);
+    conditions_.push_back({criterion, true, steps(claim.result) + (largest ? slack + 1 : -slack - 1), 0});
+  }
+
+  const PlainProblem& problem_;
+  Progress& progress_;
+  PlainPlateaus plateaus_;
+  std::string reason_;  ///< why nothing more can be checked
+  std::size_t level_ = 0;
+  bool with_pits_ = false;
+  std::vector<Factor> clauses_;
+  std::vector<Component> conditions_;  ///< in the first component
+  std::vector<Component> sums_;
+};
+
+bool overlapping(const PlainProblem& problem) {
+  std::vector<bool> taken(problem.delaunay.triangles.size(), false);
+  for (const PlainQuadrilateral& q : problem.quadrilaterals) {
+    if (taken[q.left] || taken[q.right]) return true;
+    taken[q.left] = taken[q.right] = true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const CriterionClaim> claims,
+                                  Progress& progress) {
+  std::vector<Finding> findings;
+  if (claims.empty()) return findings;
+  if (!problem.structure_known || overlapping(problem)) {
+    for (const CriterionClaim& claim : claims) {
+      findings.push_back({claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked,
+                          "only for order 0 and 1, and quadrilaterals that do not overlap"});
+    }
+    return findings;
+  }
+  BoundChecker checker(problem, progress);
+  for (const CriterionClaim& claim : claims) findings.push_back(checker.check(claim));
+  return findings;
+}
+
+}  // namespace thalweg::verify

@@ -1,0 +1,40 @@
+#pragma once
+
+/// Fewest pits over all labellings, as connectivity of plateaus.
+
+#include "verify/plain_delaunay.hpp"
+#include "verify/plain_solver.hpp"
+
+#include <span>
+#include <vector>
+
+namespace thalweg::verify {
+
+/// The plateaus of the edges that every labelling has, and what each diagonal connects. A plateau that has a
+/// lower neighbour or touches the rim is drained; all drained ones are one node.
+class PlainPlateaus {
+ public:
+  PlainPlateaus(const PlainMesh& delaunay, std::span<const PlainQuadrilateral> quadrilaterals);
+
+  /// No labelling has fewer pits: the sets of plateaus that all diagonals together leave undrained.
+  [[nodiscard]] std::size_t fewest() const;
+  /// For each plateau that some diagonal connects: one of them must be chosen where pits are fewest.
+  [[nodiscard]] std::vector<Factor> plateau_clauses() const;
+  /// The same for each set of plateaus that the labels leave unconnected though some diagonal would; empty if
+  /// the labels have the fewest pits.
+  [[nodiscard]] std::vector<Factor> broken_clauses(const std::vector<bool>& labels) const;
+
+ private:
+  struct Link {
+    Index quadrilateral;
+    bool label;
+    Index a, b;  ///< nodes
+  };
+  [[nodiscard]] std::vector<Factor> clauses(const std::vector<Index>& set_of_node) const;
+
+  std::vector<Link> links_;
+  Index drained_ = 0;             ///< the node of all that is drained; nodes before it are plateaus
+  std::vector<bool> is_plateau_;  ///< nodes that stand for an undrained plateau
+};
+
+}  // namespace thalweg::verify
