@@ -250,9 +250,11 @@ void FanSearch::add_turns(const Range& range, const Seen& seen) {
 
 bool FanSearch::hopeless(const Range& range, double horizon) {
   if (pruning_ == FanPruning::None || seen_.size() <= k_) return false;
-  const std::size_t most = 16 + 6 * k_;  // enough to decide, few enough to be quick
+  // Near the hull only vertices far along a narrow gap tell that it is hopeless, so all count; the limit
+  // keeps a vertex that sees thousands from a cost that is quadratic in them.
+  constexpr std::size_t kMost = 1024;
   turns_.clear();
-  for (std::size_t i = 0; i < std::min(most, seen_.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMost, seen_.size()); ++i) {
     if (certain(range, seen_[i], horizon)) add_turns(range, seen_[i]);
   }
   if (turns_.size() <= 2 * k_) return false;
