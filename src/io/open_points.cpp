@@ -1,6 +1,7 @@
 // What kind of source of points a file is.
 #include "io/dataset.hpp"
 #include "io/gdal_session.hpp"
+#include "io/las_points.hpp"
 #include "io/layer_reader.hpp"
 #include "io/mesh_points.hpp"
 #include "io/raster_points.hpp"
@@ -9,7 +10,6 @@
 
 #include <thalweg/base/error.hpp>
 
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -43,22 +43,10 @@ std::string list_subdatasets(GDALDataset& dataset) {
   return list;
 }
 
-std::string extension_of(const std::string& path) {
-  const std::size_t dot = path.find_last_of("./");
-  std::string extension = dot == std::string::npos || path[dot] == '/' ? "" : path.substr(dot);
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 }  // namespace
 
 std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const Progress& progress) {
-  const std::string extension = extension_of(spec.path);
-  if (extension == ".las" || extension == ".laz") {
-    throw Error(
-        ErrorCode::Unsupported,
-        spec.path + ": LAS files are not read; convert it to text first (pdal translate in.las out.csv)");
-  }
+  if (is_las(spec)) return open_las(spec);
   if (is_mesh(spec)) return open_mesh(spec, progress);
   if (is_text(spec)) return open_text(spec);
   GDALDatasetUniquePtr dataset = open_dataset(spec.path);

@@ -116,6 +116,8 @@ class SurveyReading {
     settle(run_.z_field, run_.options.z_field, ErrorCode::MissingHeight, "the field with heights of points,");
     settle(run_.line_z_field, run_.options.line_z_field, ErrorCode::MissingHeight,
            "the field with heights of lines,");
+    if (!run_.options.classes.empty() || run_.options.returns != LasReturns::All)
+      settle(run_.las_filter, "(--classes, --returns)", ErrorCode::Usage, "the filter of LAS points");
     settle(run_.kind_field, run_.options.kind_field, ErrorCode::Usage, "the field with kinds of lines,");
     check_not_empty();
     check_degrees();

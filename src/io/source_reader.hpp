@@ -37,6 +37,7 @@ struct ReadContext {
   OptionUse z_field;
   OptionUse line_z_field;
   OptionUse kind_field;
+  OptionUse las_filter;
   std::vector<std::shared_ptr<const NodataRegion::Grid>> grids;  ///< of all rasters
   bool has_outside = false;                                      ///< one of them has ground that is outside
   Box2 extent;  ///< with a box: of all points, in the plane of the survey

@@ -70,7 +70,8 @@ std::string formats_text() {
                     std::string(format.reads ? "r" : "-") + (format.writes ? "w" : "-"), format.description);
   }
   text +=
-      "\nPoints: any OGR point layer; text (.csv .xyz .txt); any GDAL raster, a point a cell centre.\n"
+      "\nPoints: any OGR point layer; text (.csv .xyz .txt); any GDAL raster, a point a cell centre;\n"
+      "LAS 1.2 to 1.4, uncompressed; vertices of a mesh.\n"
       "Lines and areas: any OGR line or polygon layer. Pictures: .png .svg .pdf.\n";
   return text;
 }
@@ -85,10 +86,11 @@ std::string formats_json() {
                     {"reads", format.reads},
                     {"writes", format.writes}});
   }
-  const Json json = {{"tin", tins},
-                     {"points", {"OGR point layers", "text (.csv .xyz .txt)", "GDAL rasters"}},
-                     {"lines", {"OGR line and polygon layers"}},
-                     {"pictures", {".png", ".svg", ".pdf"}}};
+  const Json json = {
+      {"tin", tins},
+      {"points", {"OGR point layers", "text (.csv .xyz .txt)", "GDAL rasters", "LAS 1.2 to 1.4"}},
+      {"lines", {"OGR line and polygon layers"}},
+      {"pictures", {".png", ".svg", ".pdf"}}};
   return json.dump(2) + "\n";
 }
 

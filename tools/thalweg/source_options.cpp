@@ -51,6 +51,15 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
   command.add_option("--line-z-field", read.line_z_field, "attribute with the height of lines");
   command.add_option("--kind-field", read.kind_field, "attribute that says ridge or valley");
   command.add_option("--where", read.where, "attribute filter, SQL");
+  command.add_option("--classes", read.classes, "LAS: classes that are points, as 2,9 (2 is ground)")
+      ->delimiter(',')
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0, 255));
+  command.add_option("--returns", read.returns, "LAS: all, first, last returns of a pulse")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, LasReturns>{
+          {"all", LasReturns::All}, {"first", LasReturns::First}, {"last", LasReturns::Last}}))
+      ->default_str("all");
   command.add_option("--bbox", a.bbox, "xmin,ymin,xmax,ymax: only what lies there");
   command.add_option("--s-crs", read.source_crs, "CRS of the sources, in place of their own (-s_srs)");
   command.add_option("--t-crs", read.target_crs, "CRS to transform to (-t_srs)");

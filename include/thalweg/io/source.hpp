@@ -41,6 +41,13 @@ enum class HeightRule {
   Optional   ///< it gets the height 0
 };
 
+/// Which returns of a pulse are points, in LAS files.
+enum class LasReturns {
+  All,
+  First,
+  Last  ///< of single returns, the one there is
+};
+
 /// How sources are read. An option that names a field, and `where`, apply to every source that has the field;
 /// a source that has not is read without it, and a note says so; no source that has it: Error.
 struct ReadOptions {
@@ -56,6 +63,8 @@ struct ReadOptions {
   std::string target_crs;  ///< CRS of the survey; default: that of the first source that has one
   std::string
       assigned_crs;  ///< CRS of the survey by declaration, nothing is transformed to it; excludes target_crs
+  std::vector<unsigned> classes;  ///< LAS: classes that are points (2 is ground); empty: all
+  LasReturns returns = LasReturns::All;
   NodataMode nodata = NodataMode::BridgeHoles;
   HeightRule heights = HeightRule::Required;
 };
@@ -82,10 +91,11 @@ struct ReadResult {
 /// Points: OGR layers of points and multipoints; text (.csv .tsv .txt .xyz .asc .dat, also with .gz:
 /// separators , ; tab or blanks; # comments; columns by name, else the first three); rasters (a point a valid
 /// cell centre, first band, from the top row down; x = x0 + (column + 0.5) dx, y = y0 + (row + 0.5) dy for a
-/// raster that is not rotated); meshes that Thalweg wrote. Lines: OGR lines and polygons, curves as OGR
-/// linearises them; with z hard, without soft. Empty geometries are skipped, with a note. Where a source's
-/// CRS differs from the survey's, its coordinates are transformed, and its heights are brought to the
-/// survey's unit of heights. Sources without CRS are taken to be in the survey's, with a note.
+/// raster that is not rotated); LAS 1.2 to 1.4, uncompressed (points marked as withheld are left out); meshes
+/// that Thalweg wrote. Lines: OGR lines and polygons, curves as OGR linearises them; with z hard, without
+/// soft. Empty geometries are skipped, with a note. Where a source's CRS differs from the survey's, its
+/// coordinates are transformed, and its heights are brought to the survey's unit of heights. Sources without
+/// CRS are taken to be in the survey's, with a note.
 ///
 /// Throws: Error{NotFound}: no such file or layer; Error{Unreadable}: not openable, in GDAL's words;
 /// Error{BadFormat}: broken content, naming row or feature; Error{EmptyInput}; Error{WrongGeometry};

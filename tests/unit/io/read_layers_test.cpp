@@ -225,7 +225,6 @@ TEST_F(ReadLayers, NamesBrokenFiles) {
   expect_error(ErrorCode::Unreadable, {"bad.gpkg"}, [&] { read({write("bad.gpkg", "this is none")}); });
   expect_error(ErrorCode::Unreadable, {"bad.geojson"},
                [&] { read({write("bad.geojson", R"({"type":"FeatureCollection","features":[{)")}); });
-  expect_error(ErrorCode::Unsupported, {"a.las", "pdal"}, [&] { read({write("a.las", "LASF")}); });
 }
 
 }  // namespace
