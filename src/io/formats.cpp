@@ -78,59 +78,11 @@ bool recognises_stl(std::string_view, const std::string& path) {
   return same_word(std::filesystem::path(path).extension().string(), ".stl");
 }
 
-}  // namespace
-
-CreationOptions::CreationOptions(const std::vector<std::string>& pairs, const FormatInfo& format) {
-  for (const std::string& option : format.creation_options) {
-    options_.push_back({std::string(key_of(option)), std::string(values_of(option))});
-    // The default of a choice is its first value, that of a list the whole list.
-    options_.back().value = split(options_.back().value, '|').front();
-  }
-  for (const std::string& pair : pairs) {
-    const auto known = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
-      return same_word(option.key, key_of(pair));
-    });
-    if (pair.find('=') == std::string::npos || known == options_.end()) {
-      throw Error(ErrorCode::Usage, "'" + pair + "' is no creation option of " + format.name + "; " +
-                                        list_options(format) + " (--co KEY=VALUE)");
-    }
-    known->value = values_of(pair);
-    const std::string& offered = format.creation_options[static_cast<std::size_t>(known - options_.begin())];
-    const bool choice = offered.find('|') != std::string::npos;
-    const std::vector<std::string> all = split(values_of(offered), choice ? '|' : ',');
-    for (const std::string& word : split(known->value, choice ? '|' : ',')) {
-      const auto same = [&](const std::string& value) { return same_word(value, word); };
-      if (std::none_of(all.begin(), all.end(), same)) {
-        throw Error(ErrorCode::Usage, "'" + word + "' is no value of the creation option " + known->key +
-                                          " of " + format.name + "; " + list_options(format));
-      }
-    }
-  }
-}
-
-const std::string& CreationOptions::value(std::string_view key) const {
-  return std::find_if(options_.begin(), options_.end(), [&](const Option& o) { return o.key == key; })->value;
-}
-
-bool CreationOptions::enabled(std::string_view key) const {
-  return same_word(value(key), "YES");
-}
-
-std::vector<std::string> CreationOptions::list(std::string_view key) const {
-  std::vector<std::string> words = split(value(key), ',');
-  for (std::string& word : words) {
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  }
-  return words;
-}
-
-std::span<const TinFormat> tin_format_table() {
+std::vector<TinFormat> mesh_formats() {
   using Crs = TinFormat::Crs;
   using Numbers = TinFormat::Numbers;
   const std::vector<std::string> edges = {"EDGES=YES|NO"};
-  const std::vector<std::string> one_layer = {"LAYER=triangles|edges|vertices|breaklines|conflicts"};
-  static const std::vector<TinFormat> table = {
+  return {
       {{"PLY", "Polygon file format (binary)", {".ply"}, true, true, edges},
        Crs::InFile,
        Numbers::Double,
@@ -185,6 +137,14 @@ std::span<const TinFormat> tin_format_table() {
        write_vtu,
        nullptr,
        nullptr},
+  };
+}
+
+std::vector<TinFormat> vector_formats() {
+  using Crs = TinFormat::Crs;
+  using Numbers = TinFormat::Numbers;
+  const std::vector<std::string> one_layer = {"LAYER=triangles|edges|vertices|breaklines|conflicts"};
+  return {
       {{"GPKG",
         "GeoPackage layers",
         {".gpkg"},
@@ -215,6 +175,62 @@ std::span<const TinFormat> tin_format_table() {
        nullptr,
        nullptr},
   };
+}
+
+}  // namespace
+
+CreationOptions::CreationOptions(const std::vector<std::string>& pairs, const FormatInfo& format) {
+  for (const std::string& option : format.creation_options) {
+    options_.push_back({std::string(key_of(option)), std::string(values_of(option))});
+    // The default of a choice is its first value, that of a list the whole list.
+    options_.back().value = split(options_.back().value, '|').front();
+  }
+  for (const std::string& pair : pairs) {
+    const auto known = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
+      return same_word(option.key, key_of(pair));
+    });
+    if (pair.find('=') == std::string::npos || known == options_.end()) {
+      throw Error(ErrorCode::Usage, "'" + pair + "' is no creation option of " + format.name + "; " +
+                                        list_options(format) + " (--co KEY=VALUE)");
+    }
+    known->value = values_of(pair);
+    const std::string& offered = format.creation_options[static_cast<std::size_t>(known - options_.begin())];
+    const bool choice = offered.find('|') != std::string::npos;
+    const std::vector<std::string> all = split(values_of(offered), choice ? '|' : ',');
+    for (const std::string& word : split(known->value, choice ? '|' : ',')) {
+      const auto same = [&](const std::string& value) { return same_word(value, word); };
+      if (std::none_of(all.begin(), all.end(), same)) {
+        throw Error(ErrorCode::Usage, "'" + word + "' is no value of the creation option " + known->key +
+                                          " of " + format.name + "; " + list_options(format));
+      }
+    }
+  }
+}
+
+const std::string& CreationOptions::value(std::string_view key) const {
+  return std::find_if(options_.begin(), options_.end(), [&](const Option& o) { return o.key == key; })->value;
+}
+
+bool CreationOptions::enabled(std::string_view key) const {
+  return same_word(value(key), "YES");
+}
+
+std::vector<std::string> CreationOptions::list(std::string_view key) const {
+  std::vector<std::string> words = split(value(key), ',');
+  for (std::string& word : words) {
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  }
+  return words;
+}
+
+std::span<const TinFormat> tin_format_table() {
+  static const std::vector<TinFormat> table = [] {
+    std::vector<TinFormat> all = mesh_formats();
+    const std::vector<TinFormat> layers = vector_formats();
+    all.insert(all.end(), layers.begin(), layers.end());
+    return all;
+  }();
   return table;
 }
 

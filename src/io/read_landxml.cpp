@@ -33,15 +33,15 @@ struct DestroyXml {
 
 // Calls `visit` for the children elements of `node` with the given name.
 template <class Visit>
-void for_each_child(const CPLXMLNode* node, const char* name, const Visit& visit) {
+void for_each_child(CPLXMLNode* node, const char* name, const Visit& visit) {
   if (node == nullptr) return;
-  for (const CPLXMLNode* child = node->psChild; child != nullptr; child = child->psNext) {
+  for (CPLXMLNode* child = node->psChild; child != nullptr; child = child->psNext) {
     if (child->eType == CXT_Element && std::strcmp(child->pszValue, name) == 0) visit(child);
   }
 }
 
-std::string attribute(const CPLXMLNode* node, const char* name) {
-  const char* text = CPLGetXMLValue(const_cast<CPLXMLNode*>(node), name, "");
+std::string attribute(CPLXMLNode* node, const char* name) {
+  const char* text = CPLGetXMLValue(node, name, "");
   return text;
 }
 
@@ -56,15 +56,15 @@ class LandXmlReader {
     text = {};
     if (!tree) fail(ErrorCode::BadFormat, "is broken XML" + session.reason());
     CPLStripXMLNamespace(tree.get(), nullptr, TRUE);
-    const CPLXMLNode* root = CPLGetXMLNode(tree.get(), "=LandXML");
+    CPLXMLNode* root = CPLGetXMLNode(tree.get(), "=LandXML");
     if (root == nullptr) fail(ErrorCode::BadFormat, "is XML, but its root is not LandXML");
-    const CPLXMLNode* surface = find_surface(root);
-    const CPLXMLNode* definition = CPLGetXMLNode(const_cast<CPLXMLNode*>(surface), "Definition");
+    CPLXMLNode* surface = find_surface(root);
+    CPLXMLNode* definition = CPLGetXMLNode(surface, "Definition");
     progress_.advance(1.0 / 3);
-    read_points(CPLGetXMLNode(const_cast<CPLXMLNode*>(definition), "Pnts"));
-    for_each_child(definition, "Faces", [&](const CPLXMLNode* faces) { read_faces(faces); });
+    read_points(CPLGetXMLNode(definition, "Pnts"));
+    for_each_child(definition, "Faces", [&](CPLXMLNode* faces) { read_faces(faces); });
     progress_.advance(2.0 / 3);
-    read_lines(CPLGetXMLNode(const_cast<CPLXMLNode*>(surface), "SourceData"));
+    read_lines(CPLGetXMLNode(surface, "SourceData"));
     read_crs(root);
     return std::move(tin_);
   }
@@ -74,12 +74,12 @@ class LandXmlReader {
     throw Error(code, path_ + ": " + what);
   }
 
-  [[nodiscard]] const CPLXMLNode* find_surface(const CPLXMLNode* root) const {
-    std::vector<const CPLXMLNode*> found;
+  [[nodiscard]] CPLXMLNode* find_surface(CPLXMLNode* root) const {
+    std::vector<CPLXMLNode*> found;
     std::string names;
-    for_each_child(root, "Surfaces", [&](const CPLXMLNode* surfaces) {
-      for_each_child(surfaces, "Surface", [&](const CPLXMLNode* surface) {
-        if (CPLGetXMLNode(const_cast<CPLXMLNode*>(surface), "Definition.Faces") == nullptr) return;
+    for_each_child(root, "Surfaces", [&](CPLXMLNode* surfaces) {
+      for_each_child(surfaces, "Surface", [&](CPLXMLNode* surface) {
+        if (CPLGetXMLNode(surface, "Definition.Faces") == nullptr) return;
         found.push_back(surface);
         names += (names.empty() ? "" : ", ") + attribute(surface, "name");
       });
@@ -94,7 +94,7 @@ class LandXmlReader {
   }
 
   // The numbers of an element's text; its `row` names it in errors.
-  [[nodiscard]] std::vector<double> numbers(const CPLXMLNode* node, const char* what, std::size_t row) const {
+  [[nodiscard]] std::vector<double> numbers(CPLXMLNode* node, const char* what, std::size_t row) const {
     const std::string text = attribute(node, "");
     const std::string where = path_ + " " + what + " " + std::to_string(row);
     TextScanner scanner(text, where);
@@ -112,9 +112,9 @@ class LandXmlReader {
     return values;
   }
 
-  void read_points(const CPLXMLNode* points) {
+  void read_points(CPLXMLNode* points) {
     if (points == nullptr) fail(ErrorCode::BadFormat, "the surface has no points (Pnts)");
-    for_each_child(points, "P", [&](const CPLXMLNode* node) {
+    for_each_child(points, "P", [&](CPLXMLNode* node) {
       const std::size_t row = tin_.points.size() + 1;
       if (row % kCheckStep == 0) progress_.check();
       const std::vector<double> values = numbers(node, "point", row);
@@ -131,9 +131,9 @@ class LandXmlReader {
     });
   }
 
-  void read_faces(const CPLXMLNode* faces) {
+  void read_faces(CPLXMLNode* faces) {
     std::size_t row = 0;
-    for_each_child(faces, "F", [&](const CPLXMLNode* node) {
+    for_each_child(faces, "F", [&](CPLXMLNode* node) {
       if (++row % kCheckStep == 0) progress_.check();
       if (attribute(node, "i") == "1") return;
       const std::string text = attribute(node, "");
@@ -157,28 +157,28 @@ class LandXmlReader {
     });
   }
 
-  void read_lines(const CPLXMLNode* source) {
+  void read_lines(CPLXMLNode* source) {
     if (source == nullptr) return;
     for (std::size_t v = 0; v < tin_.points.size(); ++v) places_.emplace(key(v), VertexId{v});
     for (const Triangle& t : tin_.triangles) {
       for (std::size_t i = 0; i < 3; ++i) edges_.push_back(std::minmax(t[i], t[(i + 1) % 3]));
     }
     std::sort(edges_.begin(), edges_.end());
-    for_each_child(source, "Breaklines", [&](const CPLXMLNode* list) {
-      for_each_child(list, "Breakline", [&](const CPLXMLNode* line) {
+    for_each_child(source, "Breaklines", [&](CPLXMLNode* list) {
+      for_each_child(list, "Breakline", [&](CPLXMLNode* line) {
         read_line(line, parse_kind_words(attribute(line, "desc")).value_or(EdgeKind::Breakline));
       });
     });
-    for_each_child(source, "Boundaries", [&](const CPLXMLNode* list) {
-      for_each_child(list, "Boundary", [&](const CPLXMLNode* line) {
+    for_each_child(source, "Boundaries", [&](CPLXMLNode* list) {
+      for_each_child(list, "Boundary", [&](CPLXMLNode* line) {
         read_line(line, attribute(line, "bndType") == "void" ? EdgeKind::Hole : EdgeKind::Boundary);
       });
     });
     for (const auto& [edge, kind] : constraints_) tin_.constraints.push_back({edge.first, edge.second, kind});
   }
 
-  void read_line(const CPLXMLNode* line, EdgeKind kind) {
-    for_each_child(line, "PntList3D", [&](const CPLXMLNode* list) {
+  void read_line(CPLXMLNode* line, EdgeKind kind) {
+    for_each_child(line, "PntList3D", [&](CPLXMLNode* list) {
       const std::vector<double> values = numbers(list, "breakline", 0);
       VertexId before;
       for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
@@ -196,8 +196,8 @@ class LandXmlReader {
     });
   }
 
-  void read_crs(const CPLXMLNode* root) {
-    const CPLXMLNode* crs = CPLGetXMLNode(const_cast<CPLXMLNode*>(root), "CoordinateSystem");
+  void read_crs(CPLXMLNode* root) {
+    CPLXMLNode* crs = CPLGetXMLNode(root, "CoordinateSystem");
     if (crs == nullptr) return;
     const std::string code = attribute(crs, "epsgCode");
     tin_.crs = code.empty() ? attribute(crs, "ogcWktCode") : "EPSG:" + code;

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -142,6 +143,22 @@ class VtuHeader {
   std::uint64_t offset_ = 0;
 };
 
+// The arrays that go before the points.
+void write_attributes(FileWriter& file, const TinWriteJob& job, std::span<const ConstraintEdge> edges) {
+  const Tin& tin = job.view.tin;
+  const std::uint64_t triangles = tin.triangle_count(), cells = triangles + edges.size();
+  file.little_endian(std::uint64_t{8 * tin.vertex_count()});
+  for (const double z : tin.heights()) file.little_endian(z);
+  file.little_endian(cells);
+  for (std::size_t t = 0; t < triangles; ++t) file.little_endian(std::uint8_t{0});
+  for (const ConstraintEdge& edge : edges) file.little_endian(static_cast<std::uint8_t>(edge.kind));
+  if (!job.view.triangle_orders.empty()) {
+    file.little_endian(std::uint64_t{4 * cells});
+    for (const std::uint16_t value : job.view.triangle_orders) file.little_endian(std::int32_t{value});
+    for (std::size_t e = 0; e < edges.size(); ++e) file.little_endian(std::int32_t{0});
+  }
+}
+
 }  // namespace
 
 void write_stl(const TinWriteJob& job) {
@@ -222,16 +239,7 @@ void write_vtu(const TinWriteJob& job) {
   header.array(types);
   file.text("      </Cells>\n    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_");
 
-  file.little_endian(elevation.bytes);
-  for (const double z : tin.heights()) file.little_endian(z);
-  file.little_endian(kind.bytes);
-  for (std::size_t t = 0; t < triangles; ++t) file.little_endian(std::uint8_t{0});
-  for (const ConstraintEdge& edge : edges) file.little_endian(static_cast<std::uint8_t>(edge.kind));
-  if (has_orders) {
-    file.little_endian(order.bytes);
-    for (const std::uint16_t value : job.view.triangle_orders) file.little_endian(std::int32_t{value});
-    for (std::size_t e = 0; e < edges.size(); ++e) file.little_endian(std::int32_t{0});
-  }
+  write_attributes(file, job, edges);
   file.little_endian(points.bytes);
   write_each(job, 0, vertices, [&](std::size_t v) {
     file.little_endian(job.xy()[v].x);
