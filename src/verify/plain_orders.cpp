@@ -208,7 +208,13 @@ bool PlainOrders::sees_side(Index p, Index u, Index v) const {
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
   std::vector<Shadow> shadows;
+  const Point2 at = mesh_.at(p), right = mesh_.at(v), left = mesh_.at(u);
   for (const Index e : near) {
+    const Point2 c = mesh_.at(constraints_[e].first), d = mesh_.at(constraints_[e].second);
+    const bool off_the_wedge = (turn(at, right, c) <= 0 && turn(at, right, d) <= 0) ||
+                               (turn(at, c, left) <= 0 && turn(at, d, left) <= 0);
+    const bool beyond_the_side = turn(left, right, c) >= 0 && turn(left, right, d) >= 0;
+    if (off_the_wedge || beyond_the_side) continue;
     const auto shadow = shadow_of(from, first, second, rational(mesh_.at(constraints_[e].first)),
                                   rational(mesh_.at(constraints_[e].second)));
     if (shadow) shadows.push_back(*shadow);
