@@ -38,6 +38,7 @@ void add_order_command(CLI::App& app);
 void add_info_command(CLI::App& app);
 void add_verify_command(CLI::App& app);
 void add_view_command(CLI::App& app);
+void add_drain_command(CLI::App& app);
 void add_formats_command(CLI::App& app);
 
 }  // namespace thalweg::cli

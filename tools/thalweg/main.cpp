@@ -105,6 +105,7 @@ int run(int argc, char** argv) {
   add_info_command(app);
   add_verify_command(app);
   add_view_command(app);
+  add_drain_command(app);
   add_formats_command(app);
   try {
     app.parse(normalise(argc, argv));

@@ -1,0 +1,66 @@
+#pragma once
+
+/// Hydrology of a TIN file: pits, flow paths, network, catchments, and whether drawn lines hold.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/io/source.hpp>
+#include <thalweg/terrain/consistency.hpp>
+#include <thalweg/terrain/pit_table.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace thalweg {
+
+struct DrainConfig {
+  std::string input;
+  std::string output;  ///< .gpkg
+  bool overwrite = false;
+  std::string report_path;               ///< JSON; empty: none ("-" is the caller's business)
+  std::vector<SourceSpec> outlets;       ///< points; water leaves at the nearest corner of the triangle there
+  std::vector<SourceSpec> seeds;         ///< points from which paths are followed
+  std::optional<double> seed_spacing_m;  ///< and a lattice of such points
+  std::optional<double> min_area_m2;     ///< of the network; none: a thousandth of the TIN
+  double pass_pits_m = 0;                ///< pits that are not deeper are full and spill
+};
+
+struct DrainReport {
+  std::string input;
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  double area_m2 = 0;
+  std::size_t interior_pits = 0;
+  std::size_t lakes = 0;
+  std::array<std::size_t, 6> interior_by_depth{};
+  double fill_volume_m3 = 0;
+  struct OutletPlace {
+    double distance_m = 0;  ///< from the point that was given to the vertex that was taken
+    double catchment_area_m2 = 0;
+  };
+  std::vector<OutletPlace> outlets;
+  std::size_t rim_outlets = 0;  ///< places at the rim where water leaves
+  double drained_area_m2 = 0;   ///< of all that leaves there or at given outlets
+  std::size_t flow_paths = 0;
+  std::size_t seeds_outside = 0;
+  std::size_t reaches = 0;
+  double min_area_m2 = 0;
+  unsigned strahler = 0;
+  std::size_t catchments = 0;
+  double pass_pits_m = 0;
+  std::size_t pits_passed = 0;
+  std::size_t broken_cycles = 0;
+  Consistency consistency;
+  std::vector<std::string> notes;
+};
+
+/// Writes the layers pits, flow_paths, network, catchments and inconsistencies to a GeoPackage.
+/// Throws: as read_tin and write_features; Error{InvalidTin}; Error{OutsideHull} for an outlet outside of the
+/// TIN. Nothing is left behind then.
+DrainReport drain_tin(const DrainConfig& config, Progress& progress);
+std::string to_json(const DrainReport& report);
+std::string to_text(const DrainReport& report);
+
+}  // namespace thalweg

@@ -1,0 +1,306 @@
+// Hydrology of a TIN file.
+//
+// 1. Read, project, refuse a TIN that is not valid. Outlets go to the nearest corner of the triangle that
+// holds
+//    them.
+// 2. Find the flow once; pits, network, catchments and paths are read off it.
+// 3. Write all layers aside, then the report; rename together.
+#include "pipeline/drain_layers.hpp"
+#include "terrain/triangle_grid.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/mesh/validate.hpp>
+#include <thalweg/pipeline/drain.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+constexpr double kNetworkShare = 0.001;  // of the TIN, where no area is asked for
+constexpr double kMostSeeds = 1e7;
+
+std::vector<Point2> read_points(const std::vector<SourceSpec>& sources, const CrsInfo& crs,
+                                Progress& progress) {
+  if (sources.empty()) return {};
+  ReadOptions options;
+  options.heights = HeightRule::Optional;
+  if (crs.known) options.target_crs = crs.wkt;
+  return read_survey(sources, {}, options, progress).survey.points.xy;
+}
+
+double distance(Point2 a, Point2 b) {
+  return std::hypot(a.x - b.x, a.y - b.y);
+}
+
+std::vector<VertexId> place_outlets(const LoadedTin& loaded, const TriangleGrid& grid,
+                                    const DrainConfig& config, DrainReport& report, Progress& progress) {
+  std::vector<VertexId> outlets;
+  for (const Point2 given : read_points(config.outlets, loaded.crs, progress)) {
+    const Point2 p = loaded.plane.to_plane(given);
+    const auto t = grid.find(p);
+    if (!t) {
+      throw Error(ErrorCode::OutsideHull,
+                  fmt::format("the outlet at {} {} is outside of the TIN; move it inside, or "
+                              "take it out of --outlets",
+                              given.x, given.y));
+    }
+    const Triangle& corner = loaded.tin.triangle(*t);
+    const VertexId nearest = *std::min_element(corner.begin(), corner.end(), [&](VertexId a, VertexId b) {
+      return distance(loaded.tin.point(a), p) < distance(loaded.tin.point(b), p);
+    });
+    outlets.push_back(nearest);
+    report.outlets.push_back(
+        {.distance_m = distance(loaded.tin.point(nearest), p) * loaded.plane.metres_per_unit()});
+  }
+  return outlets;
+}
+
+/// Seeds as written, and in the plane.
+std::vector<std::pair<Point2, Point2>> list_seeds(const LoadedTin& loaded, const DrainConfig& config,
+                                                  Progress& progress) {
+  std::vector<std::pair<Point2, Point2>> seeds;
+  for (const Point2 p : read_points(config.seeds, loaded.crs, progress)) {
+    seeds.emplace_back(p, loaded.plane.to_plane(p));
+  }
+  if (!config.seed_spacing_m) return seeds;
+  const double spacing = *config.seed_spacing_m / loaded.plane.metres_per_unit();
+  const Box2 box = bounding_box(loaded.tin.points());
+  const double columns = std::ceil(box.width() / spacing), rows = std::ceil(box.height() / spacing);
+  if (columns * rows > kMostSeeds) {
+    throw Error(ErrorCode::SizeLimit,
+                fmt::format("--seed-spacing {} gives {:.0f} seeds, more than {:.0f}; take a wider one",
+                            *config.seed_spacing_m, columns * rows, kMostSeeds));
+  }
+  for (double row = 0; row < rows; ++row) {
+    for (double column = 0; column < columns; ++column) {
+      const Point2 p{box.x_min + (column + 0.5) * spacing, box.y_min + (row + 0.5) * spacing};
+      seeds.emplace_back(loaded.plane.to_written(p), p);
+    }
+  }
+  return seeds;
+}
+
+std::vector<SeededPath> follow_seeds(const LoadedTin& loaded, const SurfaceFlow& flow,
+                                     const TriangleGrid& grid, const DrainConfig& config, DrainReport& report,
+                                     Progress& progress) {
+  const auto seeds = list_seeds(loaded, config, progress);
+  std::vector<SeededPath> paths;
+  progress.start_phase("follow paths");
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (i % 256 == 0) progress.advance(static_cast<double>(i) / static_cast<double>(seeds.size()));
+    if (const auto t = grid.find(seeds[i].second)) {
+      paths.push_back({seeds[i].first, flow.path_from(*t, seeds[i].second)});
+    }
+  }
+  report.flow_paths = paths.size();
+  // A lattice over the box of a TIN leaves it at every bay; only points that were given are worth a word.
+  if (!config.seed_spacing_m) report.seeds_outside = seeds.size() - paths.size();
+  progress.advance(1);
+  return paths;
+}
+
+void describe(const LoadedTin& loaded, const SurfaceFlow& flow, const PitTable& table,
+              const Spilling& spilling, DrainReport& report) {
+  const double square = loaded.plane.metres_per_unit() * loaded.plane.metres_per_unit();
+  report.vertices = loaded.tin.vertex_count();
+  report.triangles = loaded.tin.triangle_count();
+  std::size_t given = 0;
+  for (const Sink& sink : flow.sinks()) {
+    report.area_m2 += sink.area * square;
+    if (sink.kind == Sink::Kind::Lake) ++report.lakes;
+    if (sink.kind == Sink::Kind::Pit) ++report.interior_pits;
+    const auto index = static_cast<std::size_t>(&sink - flow.sinks().data());
+    if (spilling.overflow[index].valid()) ++report.pits_passed;
+    const Sink::Kind end = flow.sinks()[spilling.end[index].index()].kind;
+    if (end != Sink::Kind::Outlet && end != Sink::Kind::Given) continue;
+    report.drained_area_m2 += sink.area * square;
+    if (sink.kind == Sink::Kind::Outlet && sink.area > 0) ++report.rim_outlets;
+    if (sink.kind == Sink::Kind::Given) ++given;
+  }
+  report.interior_by_depth = table.interior_by_depth;
+  report.fill_volume_m3 = table.fill_volume_m3;
+  report.broken_cycles = flow.broken_cycles();
+  if (given < report.outlets.size())
+    report.notes.emplace_back("several outlets lie at the same vertex: they are one");
+  if (!loaded.crs.known) {
+    report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
+  }
+  if (report.seeds_outside > 0) {
+    report.notes.push_back(fmt::format("{} seeds are outside of the TIN", report.seeds_outside));
+  }
+}
+
+void write_report(const std::string& path, const std::string& target, const DrainReport& report) {
+  std::ofstream file(path, std::ios::binary);
+  file << to_json(report);
+  file.close();
+  if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
+}
+
+}  // namespace
+
+DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
+  check_features_path(config.output);
+  const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
+  PendingOutputs().add(config.output, mode);
+  PendingOutputs outputs;
+  const bool to_file = !config.report_path.empty() && config.report_path != "-";
+  const std::string report_path = to_file ? outputs.add(config.report_path, mode) : std::string();
+  DrainReport report;
+  report.input = config.input;
+
+  progress.start_phase("read");
+  const LoadedTin loaded = load_tin(config.input, progress);
+  if (const auto violations = validate(loaded.tin); !violations.empty()) {
+    throw Error(ErrorCode::InvalidTin,
+                fmt::format("{} breaks law {}: {}; `thalweg info` lists all violations", config.input,
+                            violations.front().code, violations.front().what));
+  }
+  if (loaded.tin.triangle_count() == 0) {
+    throw Error(ErrorCode::EmptyInput,
+                config.input + ": has no triangle, so no water runs; give a TIN with some");
+  }
+  const TriangleGrid grid(loaded.tin);
+  const std::vector<VertexId> outlets = place_outlets(loaded, grid, config, report, progress);
+  const SurfaceFlow flow(loaded.tin, outlets, progress);
+  const MetricScale scale = loaded.plane.scale();
+  const PitTable table = tabulate_pits(flow, scale, progress);
+  const Spilling spilling = let_spill(flow, table, config.pass_pits_m);
+  report.pass_pits_m = config.pass_pits_m;
+  describe(loaded, flow, table, spilling, report);
+  const double square = scale.horizontal_metres_per_unit * scale.horizontal_metres_per_unit;
+  std::vector<double> area_m2(flow.sinks().size(), 0);  // by the sink in which water ends
+  std::vector<std::uint32_t> end_of_sink;
+  for (std::size_t s = 0; s < area_m2.size(); ++s) {
+    end_of_sink.push_back(spilling.end[s].value());
+    area_m2[end_of_sink.back()] += flow.sinks()[s].area * square;
+  }
+  for (std::size_t i = 0; i < outlets.size(); ++i) {
+    report.outlets[i].catchment_area_m2 = area_m2[flow.sink_of(outlets[i]).index()];
+  }
+  report.consistency = check_consistency(flow, scale);
+
+  report.min_area_m2 = config.min_area_m2.value_or(kNetworkShare * report.area_m2);
+  const std::vector<Reach> network = find_network(flow, spilling, report.min_area_m2 / square, progress);
+  report.reaches = network.size();
+  for (const Reach& reach : network) report.strahler = std::max(report.strahler, reach.strahler);
+
+  const std::vector<Catchment> catchments = outline_catchments(flow, end_of_sink, progress);
+  report.catchments = catchments.size();
+  const std::vector<SeededPath> paths = follow_seeds(loaded, flow, grid, config, report, progress);
+
+  const std::vector<FeatureLayer> layers = {
+      pit_layer(loaded, table), path_layer(loaded, flow, paths), network_layer(loaded, flow, network),
+      catchment_layer(loaded, flow, catchments, area_m2), inconsistency_layer(loaded, report.consistency)};
+  write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
+  if (to_file) write_report(report_path, config.report_path, report);
+  progress.check();
+  outputs.commit();
+  return report;
+}
+
+std::string to_json(const DrainReport& r) {
+  using Json = nlohmann::ordered_json;
+  Json classes = Json::array();
+  for (std::size_t i = 0; i < r.interior_by_depth.size(); ++i) {
+    classes.push_back(
+        {{"up_to_m", i < kDepthClassesMetres.size() ? Json(kDepthClassesMetres[i]) : Json(nullptr)},
+         {"pits", r.interior_by_depth[i]}});
+  }
+  Json outlets = Json::array();
+  for (const DrainReport::OutletPlace& outlet : r.outlets) {
+    outlets.push_back({{"distance_m", outlet.distance_m}, {"catchment_area_m2", outlet.catchment_area_m2}});
+  }
+  Json rising = Json::array();
+  for (const Inconsistency& place : r.consistency.places) {
+    if (place.kind != Inconsistency::Kind::ValleyRises) continue;
+    rising.push_back({{"from", place.from.value()}, {"to", place.to.value()}, {"rise_m", place.rise_m}});
+  }
+  const Consistency& c = r.consistency;
+  const Json json = {
+      {"tin",
+       {{"path", r.input}, {"vertices", r.vertices}, {"triangles", r.triangles}, {"area_m2", r.area_m2}}},
+      {"pits",
+       {{"interior", r.interior_pits},
+        {"lake", r.lakes},
+        {"interior_by_depth", classes},
+        {"fill_volume_m3", r.fill_volume_m3}}},
+      {"outlets", outlets},
+      {"rim_outlets", r.rim_outlets},
+      {"drained_area_m2", r.drained_area_m2},
+      {"flow_paths", {{"count", r.flow_paths}, {"seeds_outside", r.seeds_outside}}},
+      {"network", {{"reaches", r.reaches}, {"min_area_m2", r.min_area_m2}, {"strahler", r.strahler}}},
+      {"pass_pits_m", r.pass_pits_m},
+      {"pits_passed", r.pits_passed},
+      {"catchments", r.catchments},
+      {"broken_cycles", r.broken_cycles},
+      {"consistency",
+       {{"valley_edges", c.valley_edges},
+        {"valley_length_m", c.valley_length_m},
+        {"draining_length_m", c.draining_length_m},
+        {"rising_edges", c.rising_edges},
+        {"rise_sum_m", c.rise_sum_m},
+        {"rise_max_m", c.rise_max_m},
+        {"rising", rising},
+        {"ridge_edges", c.ridge_edges},
+        {"crossed_ridge_edges", c.crossed_ridge_edges},
+        {"undrawn_valley_edges", c.undrawn_valley_edges},
+        {"triangles_on_valleys", c.triangles_on_valleys},
+        {"flat_triangles", c.flat_triangles},
+        {"flat_edges", c.flat_edges}}},
+      {"notes", r.notes}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_text(const DrainReport& r) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  const auto row = [&](const char* name, const std::string& value) {
+    fmt::format_to(out, "{:<36}{}\n", name, value);
+  };
+  const Consistency& c = r.consistency;
+  row("TIN", r.input);
+  row("area, m2", fmt::format("{:.1f}", r.area_m2));
+  row("pits inside", fmt::format("{}", r.interior_pits));
+  if (r.lakes > 0) row("lakes", fmt::format("{}", r.lakes));
+  std::string classes;
+  for (std::size_t i = 0; i < r.interior_by_depth.size(); ++i) {
+    classes += i < kDepthClassesMetres.size()
+                   ? fmt::format("<= {}: {}  ", kDepthClassesMetres[i], r.interior_by_depth[i])
+                   : fmt::format("more: {}", r.interior_by_depth[i]);
+  }
+  row("  by depth, m", classes);
+  row("volume to fill them, m3", fmt::format("{:.1f}", r.fill_volume_m3));
+  if (r.pits_passed > 0)
+    row("pits that spill", fmt::format("{}, up to {} m deep", r.pits_passed, r.pass_pits_m));
+  row("area that drains off, m2", fmt::format("{:.1f}", r.drained_area_m2));
+  row("outlets on the rim", fmt::format("{}", r.rim_outlets));
+  for (const DrainReport::OutletPlace& outlet : r.outlets) {
+    row("given outlet",
+        fmt::format("moved {:.2f} m, drains {:.1f} m2", outlet.distance_m, outlet.catchment_area_m2));
+  }
+  row("reaches of the network",
+      fmt::format("{}, of {:.1f} m2 and more, Strahler order {}", r.reaches, r.min_area_m2, r.strahler));
+  row("catchments", fmt::format("{}", r.catchments));
+  if (r.flow_paths > 0) row("flow paths", fmt::format("{}", r.flow_paths));
+  row("drawn valleys that drain, m", fmt::format("{:.1f} of {:.1f}", c.draining_length_m, c.valley_length_m));
+  row("drawn valley edges that rise",
+      fmt::format("{}, by {:.2f} m together, {:.2f} m at most", c.rising_edges, c.rise_sum_m, c.rise_max_m));
+  row("drawn ridge edges that are crossed", fmt::format("{} of {}", c.crossed_ridge_edges, c.ridge_edges));
+  row("valley edges that are not drawn", fmt::format("{}", c.undrawn_valley_edges));
+  row("triangles with all corners on valleys", fmt::format("{}", c.triangles_on_valleys));
+  row("flat triangles, flat edges", fmt::format("{}, {}", c.flat_triangles, c.flat_edges));
+  for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", note);
+  return text;
+}
+
+}  // namespace thalweg

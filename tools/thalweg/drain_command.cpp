@@ -1,0 +1,58 @@
+// thalweg drain: pits, flow paths, network and catchments of a TIN.
+#include "command.hpp"
+
+#include <thalweg/pipeline/drain.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace thalweg::cli {
+
+void add_drain_command(CLI::App& app) {
+  struct Arguments {
+    DrainConfig config;
+    std::vector<std::string> outlets, seeds;
+    double seed_spacing = 0;
+    double min_area = -1;
+    Common common;
+  };
+  auto a = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("drain", "pits, flow paths, drainage network and catchments of a TIN");
+  command->add_option("TIN", a->config.input, "TIN file")->required();
+  command->add_option("OUTPUT", a->config.output, "GeoPackage to write (.gpkg)")->required();
+  const auto points = [&](const char* name, std::vector<std::string>& files, const char* what) {
+    command->add_option(name, files, what)
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  points("--outlets", a->outlets, "points where water leaves; repeatable");
+  points("--seeds", a->seeds, "points from which flow paths are followed; repeatable");
+  command->add_option("--seed-spacing", a->seed_spacing, "follow flow paths from a lattice, metres")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--min-area", a->min_area, "least area that a reach of the network drains, m2")
+      ->check(CLI::NonNegativeNumber)
+      ->default_str("a thousandth of the TIN");
+  command->add_option("--pass-pits", a->config.pass_pits_m, "pits at most so deep are full and spill, metres")
+      ->check(CLI::NonNegativeNumber)
+      ->default_str("0");
+  command->add_option("--report", a->config.report_path, "JSON report; - for stdout");
+  command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
+  add_common_options(*command, a->common);
+  command->callback([a] {
+    for (const std::string& file : a->outlets) a->config.outlets.push_back(parse_source(file));
+    for (const std::string& file : a->seeds) a->config.seeds.push_back(parse_source(file));
+    if (a->seed_spacing > 0) a->config.seed_spacing_m = a->seed_spacing;
+    if (a->min_area >= 0) a->config.min_area_m2 = a->min_area;
+    const DrainReport report = drain_tin(a->config, progress_of(a->common));
+    if (a->config.report_path == "-" || (a->common.quiet == 0 && a->common.format == Format::Json)) {
+      print(to_json(report));
+    } else if (a->common.quiet == 0) {
+      print(to_text(report));
+    }
+  });
+}
+
+}  // namespace thalweg::cli
