@@ -3,7 +3,7 @@
 // 1. Orientation and in-circle: differences of coordinates that are near each other are exact doubles. Where
 //    all are, and where they are integers of at most 61 bits once scaled by one power of two (lattices, and
 //    points close together at large offsets), the determinant is computed in integers of 128 and 256 bits.
-//    Everything else: CGAL's filtered kernel on the same doubles.
+//    Everything else, and the side of a plane: CGAL's filtered kernel on the same doubles.
 // 2. The tie rule: sort the four points; the largest that is one of a, b, c, and whose replacement by d
 // leaves
 //    a proper triangle, decides by that triangle's orientation; if d comes first, it is outside.
@@ -213,6 +213,12 @@ int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
   if (const auto sign = in_circle_in_integers(a, b, c, d)) return *sign;
   return static_cast<int>(
       Kernel().side_of_oriented_circle_2_object()(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+}
+
+int side_of_plane_exact(Point2 a, Point2 b, Point2 c, Point2 d, const std::array<double, 4>& heights) {
+  const auto in_space = [](Point2 p, double z) { return Kernel::Point_3(p.x, p.y, z); };
+  return static_cast<int>(Kernel().orientation_3_object()(in_space(a, heights[0]), in_space(b, heights[1]),
+                                                          in_space(c, heights[2]), in_space(d, heights[3])));
 }
 
 int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {

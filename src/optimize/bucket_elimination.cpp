@@ -208,7 +208,9 @@ Minimum<Criteria> minimise(const TermSum<Criteria>& sum, const EliminationOrder&
 
 template std::vector<NodePair> interactions(const TermSum<1>&);
 template std::vector<NodePair> interactions(const TermSum<2>&);
+template std::vector<NodePair> interactions(const TermSum<4>&);
 template Minimum<1> minimise(const TermSum<1>&, const EliminationOrder&, const Progress&);
 template Minimum<2> minimise(const TermSum<2>&, const EliminationOrder&, const Progress&);
+template Minimum<4> minimise(const TermSum<4>&, const EliminationOrder&, const Progress&);
 
 }  // namespace thalweg

@@ -1,37 +1,243 @@
-// The table of criteria: the one place where a criterion is declared.
+// The one place where a criterion is declared: its name in the enumeration, and here its term and its line in
+// the table. Solver, option, report and proof follow from what it couples and how its values combine.
+//
+// Lengths, areas and angles between edges are measured in the plane of triangulation, in metres; normals in
+// space, with heights in metres. A term is a plain function of geometry that depends neither on ids nor on
+// the order of corners, and uses only operations that IEEE 754 rounds correctly.
 #include <thalweg/optimize/criterion.hpp>
 
+#include "optimize/declaration.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/geometry/predicates.hpp>
+
+#include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace thalweg {
 
 namespace {
 
-constexpr std::array<CriterionTraits, 2> kCriteria = {{
-    {Criterion::LocalMinima, "local-minima", "count", Direction::Minimise, Coupling::Plateau,
-     Combination::Count},
-    {Criterion::NormalAngleSum, "normal-angle-sum", "radians", Direction::Minimise, Coupling::Edge,
-     Combination::Sum},
-}};
+/// Angle between the upward normals of the triangles at an edge, in radians; 0 where the surface goes on
+/// flat. Its sum and its largest value are measures of smoothness in van Kreveld, Loeffler, Silveira,
+/// Optimization for first order Delaunay triangulations, 2010.
+double normal_angle(const Face& left, const Face& right, Scale /*scale*/) {
+  return angle_between(left.normal, right.normal);
+}
+
+double normal_angle_squared(const Face& left, const Face& right, Scale scale) {
+  const double angle = normal_angle(left, right, scale);
+  return angle * angle;
+}
+
+/// The corner of `right` that is none of `left`.
+const Corner& apex_across(const Face& left, const Face& right) {
+  return *std::find_if(right.corner.begin(), right.corner.end(), [&](const Corner& corner) {
+    return std::find(left.corner.begin(), left.corner.end(), corner) == left.corner.end();
+  });
+}
+
+/// Length of an interior edge in the plane, in metres: the sum is what a minimum-weight triangulation
+/// minimises.
+double edge_length(const Face& left, const Face& right, Scale scale) {
+  const Corner& apex = apex_across(right, left);
+  const auto i = static_cast<std::size_t>(&apex - left.corner.data());
+  const Point2 a = left.corner[(i + 1) % 3].at, b = left.corner[(i + 2) % 3].at;
+  const double x = (b.x - a.x) * scale.horizontal, y = (b.y - a.y) * scale.horizontal;
+  return std::sqrt(x * x + y * y);
+}
+
+/// Larger area of the two triangles at an edge, divided by the smaller; at most 2^20. Van Kreveld, Loeffler,
+/// Silveira 2010: a triangulation whose neighbours differ little in size.
+double area_ratio(const Face& left, const Face& right, Scale /*scale*/) {
+  const double a = left.normal.z, b = right.normal.z;
+  constexpr double kMost = 0x1p20;
+  const double larger = std::max(a, b), smaller = std::min(a, b);
+  return larger < kMost * smaller ? larger / smaller : kMost;
+}
+
+/// 1 if the surface is strictly convex at the edge: the apex of one triangle lies strictly below the plane of
+/// the other (both ways say the same). Decided exactly, on the coordinates as they are.
+double convex_edge(const Face& left, const Face& right, Scale /*scale*/) {
+  const Corner& d = apex_across(left, right);
+  const auto& [a, b, c] = left.corner;
+  return side_of_plane(a.at, b.at, c.at, d.at, {a.height, b.height, c.height, d.height}) < 0 ? 1 : 0;
+}
+
+/// 1 if the three heights are equal: what contour lines leave between their bends.
+double flat_triangle(const Face& face, Scale /*scale*/) {
+  const auto& [a, b, c] = face.corner;
+  return a.height == b.height && b.height == c.height ? 1 : 0;
+}
+
+constexpr auto kMinimise = Direction::Minimise;
+constexpr auto kMaximise = Direction::Maximise;
+
+constexpr std::array kDeclarations = {
+    // Interior pits as find_pits counts them: maximal connected sets of vertices of equal height without a
+    // lower neighbour, off the boundary, and no lake. De Kok, van Kreveld, Loeffler 2007.
+    Declaration{{Criterion::LocalMinima, "local-minima", "count", kMinimise, Coupling::Plateau,
+                 Combination::Count}},
+    Declaration{{Criterion::NormalAngleSum, "normal-angle-sum", "radians", kMinimise, Coupling::Edge,
+                 Combination::Sum},
+                nullptr,
+                normal_angle},
+    Declaration{{Criterion::NormalAngleSquares, "normal-angle-squares", "radians^2", kMinimise,
+                 Coupling::Edge, Combination::Sum},
+                nullptr,
+                normal_angle_squared},
+    Declaration{{Criterion::EdgeLength, "edge-length", "metres", kMinimise, Coupling::Edge, Combination::Sum},
+                nullptr,
+                edge_length},
+    Declaration{
+        {Criterion::AreaRatioSum, "area-ratio-sum", "ratio", kMinimise, Coupling::Edge, Combination::Sum},
+        nullptr,
+        area_ratio},
+    Declaration{
+        {Criterion::ConvexEdges, "convex-edges", "count", kMaximise, Coupling::Edge, Combination::Count},
+        nullptr,
+        convex_edge},
+    Declaration{{Criterion::FlatTriangles, "flat-triangles", "count", kMinimise, Coupling::OneTriangle,
+                 Combination::Count},
+                flat_triangle},
+};
+
+constexpr auto kTraits = [] {
+  std::array<CriterionTraits, kDeclarations.size()> traits{};
+  for (std::size_t i = 0; i < traits.size(); ++i) traits[i] = kDeclarations[i].traits;
+  return traits;
+}();
+static_assert([] {
+  for (std::size_t i = 0; i < kTraits.size(); ++i) {
+    if (static_cast<std::size_t>(kTraits[i].criterion) != i) return false;
+  }
+  return true;
+}());
+
+std::string criterion_names() {
+  std::string names;
+  for (const CriterionTraits& traits : kTraits) {
+    names += (names.empty() ? "" : ", ") + std::string(traits.name);
+  }
+  return names;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
 
 }  // namespace
 
 std::span<const CriterionTraits> all_criteria() {
-  return kCriteria;
+  return kTraits;
 }
 
 const CriterionTraits& traits_of(Criterion criterion) {
-  return kCriteria[static_cast<std::size_t>(criterion)];
+  return kTraits[static_cast<std::size_t>(criterion)];
+}
+
+const Declaration& declaration_of(Criterion criterion) {
+  return kDeclarations[static_cast<std::size_t>(criterion)];
 }
 
 std::optional<Criterion> find_criterion(std::string_view name) {
-  for (const CriterionTraits& traits : kCriteria) {
+  for (const CriterionTraits& traits : kTraits) {
     if (traits.name == name) return traits.criterion;
   }
   return std::nullopt;
+}
+
+std::string Objective::name() const {
+  if (!is_weighted) return std::string(traits_of(parts.front().criterion).name);
+  std::string text;
+  for (const Part& part : parts) {
+    if (!text.empty() && part.weight >= 0) text += '+';
+    text += shortest(part.weight) + '*' + std::string(traits_of(part.criterion).name);
+  }
+  return text;
+}
+
+std::string_view Objective::unit() const {
+  return is_weighted ? "weighted" : traits_of(parts.front().criterion).unit;
+}
+
+Direction Objective::direction() const {
+  return is_weighted ? Direction::Minimise : traits_of(parts.front().criterion).direction;
+}
+
+namespace {
+
+/// Weight and name of one part, which may start with a sign.
+Objective::Part parse_part(std::string_view part, std::string_view whole) {
+  const auto fail = [&](const std::string& why) {
+    return Error(ErrorCode::Usage, "criterion '" + std::string(whole) + "': " + why);
+  };
+  double weight = 1, sign = 1;
+  if (part.starts_with('+') || part.starts_with('-')) {
+    sign = part.front() == '-' ? -1 : 1;
+    part.remove_prefix(1);
+  }
+  if (const std::size_t star = part.find('*'); star != std::string_view::npos) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + star, weight);
+    if (error != std::errc() || end != part.data() + star || !std::isfinite(weight) || weight == 0) {
+      throw fail("'" + std::string(part.substr(0, star)) + "' is no weight; give a number other than 0");
+    }
+    part.remove_prefix(star + 1);
+  }
+  const auto criterion = find_criterion(part);
+  if (!criterion) throw fail("'" + std::string(part) + "' is no criterion; there are " + criterion_names());
+  return {*criterion, sign * weight};
+}
+
+/// Where the next part starts: at a sign before a name or a number, none of which holds a sign but after a
+/// letter or in an exponent.
+std::size_t end_of_part(std::string_view text) {
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] != '+' && text[i] != '-') continue;
+    const bool in_exponent = i > 1 && (text[i - 1] == 'e' || text[i - 1] == 'E') &&
+                             ((text[i - 2] >= '0' && text[i - 2] <= '9') || text[i - 2] == '.');
+    if (in_exponent) continue;
+    if (text[i] == '+') return i;
+    const std::string_view before = text.substr(0, i);
+    const std::size_t name = before.find_last_of("*+") == std::string_view::npos
+                                 ? before.find_first_not_of("+-")
+                                 : before.find_last_of("*+") + 1;
+    if (name < i && find_criterion(before.substr(name))) return i;
+  }
+  return text.size();
+}
+
+}  // namespace
+
+Objective parse_objective(std::string_view text) {
+  if (const auto criterion = find_criterion(text)) return *criterion;
+  std::vector<Objective::Part> parts;
+  for (std::string_view rest = text; parts.empty() || !rest.empty();) {
+    const std::size_t end = end_of_part(rest);
+    parts.push_back(parse_part(rest.substr(0, end), text));
+    rest.remove_prefix(end);
+    const CriterionTraits& traits = traits_of(parts.back().criterion);
+    const bool is_sum = traits.combination == Combination::Sum || traits.combination == Combination::Count;
+    if (!is_sum || traits.coupling == Coupling::Plateau) {
+      throw Error(ErrorCode::Usage, "criterion '" + std::string(text) + "': " + std::string(traits.name) +
+                                        " is no sum of terms, and cannot be weighted; give it a priority of "
+                                        "its own");
+    }
+    const auto same = [&](const Objective::Part& p) { return p.criterion == traits.criterion; };
+    if (std::count_if(parts.begin(), parts.end(), same) > 1) {
+      throw Error(ErrorCode::Usage,
+                  "criterion '" + std::string(text) + "' names " + std::string(traits.name) + " twice");
+    }
+  }
+  return Objective(std::move(parts));
 }
 
 }  // namespace thalweg

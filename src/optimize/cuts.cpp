@@ -90,5 +90,6 @@ std::vector<Label> span_at_least_cost(const Labelling<Criteria>& problem) {
 
 template std::vector<Label> span_at_least_cost(const Labelling<1>&);
 template std::vector<Label> span_at_least_cost(const Labelling<2>&);
+template std::vector<Label> span_at_least_cost(const Labelling<4>&);
 
 }  // namespace thalweg

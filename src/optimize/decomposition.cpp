@@ -145,7 +145,10 @@ template Solution<1> decompose(const Labelling<1>&, std::span<const std::uint32_
                                const WideSolver<1>&, const Progress&);
 template Solution<2> decompose(const Labelling<2>&, std::span<const std::uint32_t>, std::uint32_t,
                                const WideSolver<2>&, const Progress&);
+template Solution<4> decompose(const Labelling<4>&, std::span<const std::uint32_t>, std::uint32_t,
+                               const WideSolver<4>&, const Progress&);
 template Labelling<1> fix_labels(const Labelling<1>&, std::span<const Label>, std::span<const std::uint32_t>);
 template Labelling<2> fix_labels(const Labelling<2>&, std::span<const Label>, std::span<const std::uint32_t>);
+template Labelling<4> fix_labels(const Labelling<4>&, std::span<const Label>, std::span<const std::uint32_t>);
 
 }  // namespace thalweg

@@ -78,18 +78,19 @@ std::vector<LinkBlock> link_blocks(const PlateauGraph& graph) {
   return blocks;
 }
 
+template <std::size_t Criteria>
 class Writer {
  public:
-  Writer(std::ostream& out, const FirstOrderProblem& problem)
+  Writer(std::ostream& out, FirstOrderProblem<Criteria> problem)
       : out_(out),
-        problem_(problem),
-        level_(problem.sums.empty() ? kSums : 0),  // the level after the sums counts flips
+        problem_(std::move(problem)),
+        level_(problem_.sums.empty() ? Criteria : 0),  // the level after the sums counts flips
         forbidden_(more_than_any()) {
-    if (problem.counts_pits && problem.sums_before_pits == 0) blocks_ = link_blocks(problem.plateaus);
+    if (problem_.counts_pits && problem_.sums_before_pits == 0) blocks_ = link_blocks(problem_.plateaus);
   }
 
   void write(const Progress& progress) {
-    const std::string name = problem_.sums.empty() ? "flips" : std::string(traits_of(problem_.sums[0]).name);
+    const std::string name = problem_.sums.empty() ? "flips" : problem_.sums[0].name();
     out_ << "{\n\"problem\": {\"name\": \"" << name << "\", \"mustbe\": \"<" << forbidden_ << "\"},\n";
     write_variables();
     progress.check();
@@ -103,14 +104,16 @@ class Writer {
   }
 
  private:
-  [[nodiscard]] std::int64_t constant() const { return problem_.sums.empty() ? 0 : problem_.delaunay[0]; }
+  [[nodiscard]] std::int64_t constant() const {
+    return problem_.sums.empty() ? 0 : static_cast<std::int64_t>(problem_.delaunay[0]);
+  }
   [[nodiscard]] std::int64_t weight(std::size_t i) const {
     return problem_.sums.empty() ? 0 : problem_.labelling.weight[i][0];
   }
 
   [[nodiscard]] std::int64_t more_than_any() const {
     std::int64_t sum = constant() + 1;
-    for (const Cost<kSums>& cost : problem_.labelling.unary) sum += std::abs(cost.level[level_]);
+    for (const Cost<Criteria>& cost : problem_.labelling.unary) sum += std::abs(cost.level[level_]);
     for (std::size_t i = 0; i < problem_.labelling.weight.size(); ++i) sum += std::abs(weight(i));
     return sum;
   }
@@ -137,7 +140,7 @@ class Writer {
   }
 
   void write_costs() {
-    const Labelling<kSums>& labelling = problem_.labelling;
+    const Labelling<Criteria>& labelling = problem_.labelling;
     for (std::size_t q = 0; q < labelling.size(); ++q) {
       out_ << ",\n\"u" << q << "\": {\"scope\": [\"q" << q << "\"], \"costs\": [0, "
            << labelling.unary[q].level[level_] << "]}";
@@ -186,7 +189,7 @@ class Writer {
   }
 
   std::ostream& out_;
-  const FirstOrderProblem& problem_;
+  FirstOrderProblem<Criteria> problem_;
   std::size_t level_;       ///< of the costs that are written
   std::int64_t forbidden_;  ///< more than any labelling costs
   std::vector<LinkBlock> blocks_;
@@ -201,7 +204,9 @@ void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilater
     throw Error(ErrorCode::Usage, "without a criterion there is no problem to write; choose one");
   }
   progress.start_phase("write the problem");
-  Writer(out, build_problem(tin, quadrilaterals, options, progress)).write(progress);
+  with_levels(options.criteria, [&](auto levels) {
+    Writer<levels()>(out, build_problem<levels()>(tin, quadrilaterals, options, progress)).write(progress);
+  });
 }
 
 }  // namespace thalweg

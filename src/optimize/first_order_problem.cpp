@@ -1,10 +1,13 @@
-// Checks the options and puts the problem together: sums over edges become unary costs and weights, pits
-// become links.
+// Checks the options and puts the problem together: sums become unary costs and weights, pits become
+// links.
 #include "optimize/first_order_problem.hpp"
+
+#include "optimize/ties.hpp"
 
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -15,8 +18,7 @@ namespace {
 void check(const Tin& tin, const OptimizeOptions& options) {
   for (auto here = options.criteria.begin(); here != options.criteria.end(); ++here) {
     if (std::find(options.criteria.begin(), here, *here) == here) continue;
-    throw Error(ErrorCode::Usage,
-                "criterion " + std::string(traits_of(*here).name) + " is given twice; name each once");
+    throw Error(ErrorCode::Usage, "criterion " + here->name() + " is given twice; name each once");
   }
   for (const double metres : {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}) {
     if (metres > 0 && std::isfinite(metres)) continue;
@@ -26,7 +28,7 @@ void check(const Tin& tin, const OptimizeOptions& options) {
     throw Error(ErrorCode::Usage, "the width limit must be 1 to " + std::to_string(kMaxWidthLimit) +
                                       ", but is " + std::to_string(options.width_limit));
   }
-  constexpr std::size_t kMaxEdges = std::size_t{1} << 28U;  // so that sums of angles stay below 2^62 steps
+  constexpr std::size_t kMaxEdges = std::size_t{1} << 28U;  // so that rows fit 32 bits
   if (tin.edge_count() < kMaxEdges) return;
   throw Error(ErrorCode::SizeLimit, "the TIN has " + std::to_string(tin.edge_count()) +
                                         " edges; fewer than 268435456 can be optimised: split the area");
@@ -34,29 +36,60 @@ void check(const Tin& tin, const OptimizeOptions& options) {
 
 }  // namespace
 
-FirstOrderProblem build_problem(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
-                                const OptimizeOptions& options, Progress& progress) {
+std::size_t count_levels(std::span<const Objective> criteria) {
+  constexpr std::size_t kMost = 4;
+  std::size_t sums = 0;
+  for (const Objective& objective : criteria) sums += objective.is(Criterion::LocalMinima) ? 0 : 1;
+  if (sums > kMost) {
+    throw Error(ErrorCode::Usage, "there are " + std::to_string(sums) +
+                                      " criteria that are sums; at most 4 can be put in order of priority");
+  }
+  return std::bit_ceil(std::max<std::size_t>(sums, 1));
+}
+
+template <std::size_t Criteria>
+FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
+                                          const OptimizeOptions& options, Progress& progress) {
   check(tin, options);
-  FirstOrderProblem problem;
-  for (const Criterion criterion : options.criteria) {
-    if (criterion == Criterion::LocalMinima) {
+  FirstOrderProblem<Criteria> problem;
+  for (const Objective& objective : options.criteria) {
+    if (objective.is(Criterion::LocalMinima)) {
       problem.sums_before_pits = problem.sums.size();
       problem.counts_pits = true;
     } else {
-      problem.sums.push_back(criterion);
+      problem.sums.push_back(objective);
     }
   }
   const std::vector<std::uint32_t> owner = quadrilaterals_of_triangles(tin, quadrilaterals);
   const Scale scale{options.horizontal_metres_per_unit, options.vertical_metres_per_unit};
-  EdgeTerms<kSums> terms = build_edge_terms<kSums>(tin, quadrilaterals, owner, problem.sums, scale, progress);
-  progress.advance(0.7);
-  problem.labelling = std::move(terms.labelling);
-  problem.delaunay = terms.delaunay;
-  problem.rank = add_flips_and_ties<kSums>(tin, quadrilaterals, problem.labelling.unary, progress);
+  const TermScan scan(tin, quadrilaterals, owner, scale);
+  Labelling<Criteria>& labelling = problem.labelling;
+  labelling.unary.resize(quadrilaterals.size());
+  if (!problem.sums.empty()) {
+    TermScan::Rows rows = scan.lay_out_rows(progress);
+    labelling.first = std::move(rows.first);
+    labelling.neighbour = std::move(rows.neighbour);
+    labelling.weight.resize(labelling.neighbour.size());
+  } else {
+    labelling.first.assign(quadrilaterals.size() + 1, 0);
+  }
+  progress.advance(0.1);
+  for (std::size_t level = 0; level < problem.sums.size(); ++level) {
+    problem.delaunay[level] = add_objective(scan, problem.sums[level], level, labelling, progress);
+    progress.advance(0.1 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
+  }
+  problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);
   progress.advance(0.9);
   if (problem.counts_pits) problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);
   progress.advance(1);
   return problem;
 }
+
+template FirstOrderProblem<1> build_problem(const Tin&, std::span<const Quadrilateral>,
+                                            const OptimizeOptions&, Progress&);
+template FirstOrderProblem<2> build_problem(const Tin&, std::span<const Quadrilateral>,
+                                            const OptimizeOptions&, Progress&);
+template FirstOrderProblem<4> build_problem(const Tin&, std::span<const Quadrilateral>,
+                                            const OptimizeOptions&, Progress&);
 
 }  // namespace thalweg

@@ -2,8 +2,9 @@
 
 /// The labelling problem of a TIN and its quadrilaterals.
 
-#include "optimize/edge_terms.hpp"
+#include "optimize/labelling.hpp"
 #include "optimize/plateaus.hpp"
+#include "optimize/sums.hpp"
 
 #include <thalweg/optimize/optimize.hpp>
 
@@ -14,22 +15,34 @@
 
 namespace thalweg {
 
-/// As many as there are criteria that are sums over edges, and at least one.
-constexpr std::size_t kSums = 1;
-
+template <std::size_t Criteria>
 struct FirstOrderProblem {
-  std::vector<Criterion> sums;  ///< the criteria that are sums over edges, in order of priority
+  std::vector<Objective> sums;  ///< the objectives that are sums, in order of priority
   bool counts_pits = false;
   std::size_t sums_before_pits = 0;  ///< how many of the sums go before local minima
 
-  Labelling<kSums> labelling;  ///< level i is sums[i]; label 1 flips; without links
-  std::array<std::int64_t, kSums> delaunay{};
+  Labelling<Criteria> labelling;  ///< level i is sums[i]; label 1 flips; without links
+  std::array<WideSteps, Criteria> delaunay{};
   std::vector<std::uint32_t> rank;  ///< of quadrilaterals, by coordinates alone
   PlateauGraph plateaus;            ///< if pits are counted
 };
 
+/// Levels of costs that the criteria need: 1, 2 or 4. Throws: Error{Usage} if that is not enough.
+std::size_t count_levels(std::span<const Objective> criteria);
+
+/// Pre: `Criteria` is at least count_levels(options.criteria).
 /// Throws: as optimize_first_order. Complexity: n log n, on all threads.
-FirstOrderProblem build_problem(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
-                                const OptimizeOptions& options, Progress& progress);
+template <std::size_t Criteria>
+FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
+                                          const OptimizeOptions& options, Progress& progress);
+
+/// Calls `run` with the number of levels as a type: run(std::integral_constant<std::size_t, n>).
+template <class Run>
+auto with_levels(std::span<const Objective> criteria, const Run& run) {
+  const std::size_t levels = count_levels(criteria);
+  if (levels == 1) return run(std::integral_constant<std::size_t, 1>{});
+  if (levels == 2) return run(std::integral_constant<std::size_t, 2>{});
+  return run(std::integral_constant<std::size_t, 4>{});
+}
 
 }  // namespace thalweg

@@ -7,13 +7,10 @@
 /// rounds correctly, so no mathematical library enters; (4) its error is below 1e-15 but for that of the
 /// normals themselves.
 
-#include <thalweg/mesh/tin.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 namespace thalweg {
 
@@ -28,20 +25,6 @@ struct Vector3 {
   double y = 0;
   double z = 0;
 };
-
-/// Normal of a counter-clockwise triangle, in square metres, pointing up. The corner that comes first
-/// lexicographically is the origin, so equal triangles have equal bits.
-inline Vector3 upward_normal(const Tin& tin, Scale scale, VertexId a, VertexId b, VertexId c) {
-  while (tin.point(b) < tin.point(a) || tin.point(c) < tin.point(a)) {
-    a = std::exchange(b, std::exchange(c, a));
-  }
-  const Point2 pa = tin.point(a), pb = tin.point(b), pc = tin.point(c);
-  const double bx = (pb.x - pa.x) * scale.horizontal, cx = (pc.x - pa.x) * scale.horizontal;
-  const double by = (pb.y - pa.y) * scale.horizontal, cy = (pc.y - pa.y) * scale.horizontal;
-  const double bz = (tin.height(b) - tin.height(a)) * scale.vertical;
-  const double cz = (tin.height(c) - tin.height(a)) * scale.vertical;
-  return {by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx};
-}
 
 /// The angle of the vector (x, y) with the x-axis, for y >= 0 and not both zero.
 /// Turned by a multiple of 45 degrees into |angle| <= 22.5 degrees; there a polynomial that interpolates
@@ -86,11 +69,12 @@ inline double angle_between(Vector3 m, Vector3 n) {
   return angle_of(dot, std::sqrt(cross_squared));
 }
 
-/// Terms are integers: multiples of 2^-32 of their unit, rounded once.
+/// Terms are integers: multiples of 2^-32 of their unit, rounded once; at most 2^30 units.
 constexpr double kStepsPerUnit = 0x1p32;
 
 inline std::int64_t to_steps(double value) {
-  return static_cast<std::int64_t>(std::floor(value * kStepsPerUnit + 0.5));
+  constexpr double kMost = 0x1p30;
+  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kMost, kMost) * kStepsPerUnit + 0.5));
 }
 
 }  // namespace thalweg

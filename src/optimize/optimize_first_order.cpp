@@ -28,13 +28,14 @@ std::string method_name(const SolverFigures& figures) {
   return name;
 }
 
+template <std::size_t Criteria>
 class Run {
  public:
   Run(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, const OptimizeOptions& options,
       Progress& progress)
       : criteria_(options.criteria), limits_{options.width_limit, options.effort}, progress_(progress) {
     progress_.start_phase("weigh diagonals");
-    problem_ = build_problem(tin, quadrilaterals, options, progress);
+    problem_ = build_problem<Criteria>(tin, quadrilaterals, options, progress);
   }
 
   OptimizeResult run() {
@@ -46,14 +47,14 @@ class Run {
 
  private:
   void choose() {
-    Labelling<kSums>& labelling = problem_.labelling;
+    Labelling<Criteria>& labelling = problem_.labelling;
     labelling.link = problem_.plateaus.link;
     labelling.node_count = problem_.plateaus.node_count;
-    solution_ = solve<kSums>(labelling, problem_.rank, limits_, progress_);
+    solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_);
     if (problem_.sums_before_pits == 0) return;
     labelling.link.clear();
     labelling.node_count = 0;
-    Solution<kSums> free = solve<kSums>(labelling, problem_.rank, limits_, progress_);
+    Solution<Criteria> free = solve<Criteria>(labelling, problem_.rank, limits_, progress_);
     for (std::size_t i = 0; i < problem_.sums_before_pits; ++i) {
       if (solution_.value.level[i] != free.bound.level[i]) {
         solution_ = std::move(free);
@@ -73,13 +74,12 @@ class Run {
     result.largest_piece = solution_.figures.largest_piece;
     result.width = solution_.figures.width;
     std::size_t level = 0;
-    for (const Criterion criterion : criteria_) {
-      const CriterionTraits& traits = traits_of(criterion);
+    for (const Objective& objective : criteria_) {
       CriterionResult line;
-      line.name = traits.name;
-      line.unit = traits.unit;
-      line.direction = traits.direction == Direction::Minimise ? "min" : "max";
-      criterion == Criterion::LocalMinima ? fill_pits(line) : fill_sum(line, level++);
+      line.name = objective.name();
+      line.unit = objective.unit();
+      line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
+      objective.is(Criterion::LocalMinima) ? fill_pits(line) : fill_sum(line, level++);
       result.criteria.push_back(std::move(line));
     }
     return result;
@@ -98,26 +98,31 @@ class Run {
   /// not, the bound of the first level that has not is still one for that level; nothing is known of those
   /// after it.
   void fill_sum(CriterionResult& line, std::size_t level) const {
-    const std::int64_t delaunay = problem_.delaunay[level];
-    line.delaunay = static_cast<double>(delaunay) / kStepsPerUnit;
-    line.result = static_cast<double>(delaunay + solution_.value.level[level]) / kStepsPerUnit;
-    line.bound = static_cast<double>(delaunay + solution_.bound.level[level]) / kStepsPerUnit;
+    const WideSteps delaunay = problem_.delaunay[level];
+    const double per_unit = line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit;
+    line.delaunay = static_cast<double>(delaunay) / per_unit;
+    line.result = static_cast<double>(delaunay + solution_.value.level[level]) / per_unit;
+    line.bound = static_cast<double>(delaunay + solution_.bound.level[level]) / per_unit;
     line.optimal = solution_.value.level[level] == solution_.bound.level[level];
     line.method = method_name(solution_.figures);
   }
 
-  const std::vector<Criterion>& criteria_;
+  const std::vector<Objective>& criteria_;
   SolverLimits limits_;
   Progress& progress_;
-  FirstOrderProblem problem_;
-  Solution<kSums> solution_;
+  FirstOrderProblem<Criteria> problem_;
+  Solution<Criteria> solution_;
 };
 
 }  // namespace
 
 OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                     const OptimizeOptions& options, Progress& progress) {
-  if (!options.criteria.empty()) return Run(tin, quadrilaterals, options, progress).run();
+  if (!options.criteria.empty()) {
+    return with_levels(options.criteria, [&](auto levels) {
+      return Run<levels()>(tin, quadrilaterals, options, progress).run();
+    });
+  }
   OptimizeResult result;
   result.quadrilaterals = quadrilaterals.size();
   result.flipped.assign(quadrilaterals.size(), 0);

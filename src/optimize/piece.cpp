@@ -132,13 +132,19 @@ template Labelling<1> restrict_to(const Labelling<1>&, const Reduction&, std::sp
                                   const Selection&);
 template Labelling<2> restrict_to(const Labelling<2>&, const Reduction&, std::span<const std::uint32_t>,
                                   const Selection&);
+template Labelling<4> restrict_to(const Labelling<4>&, const Reduction&, std::span<const std::uint32_t>,
+                                  const Selection&);
 template Cost<1> cost_of(const Labelling<1>&, std::span<const Label>);
 template Cost<2> cost_of(const Labelling<2>&, std::span<const Label>);
+template Cost<4> cost_of(const Labelling<4>&, std::span<const Label>);
 template std::vector<PairCost<1>> pairs_of(const Labelling<1>&);
 template std::vector<PairCost<2>> pairs_of(const Labelling<2>&);
+template std::vector<PairCost<4>> pairs_of(const Labelling<4>&);
 template Clauses shorten(const Labelling<1>&, std::span<const PairCost<1>>, std::span<const Cut>);
 template Clauses shorten(const Labelling<2>&, std::span<const PairCost<2>>, std::span<const Cut>);
+template Clauses shorten(const Labelling<4>&, std::span<const PairCost<4>>, std::span<const Cut>);
 template std::optional<ExactLabels> solve_exactly(const Labelling<1>&, std::uint32_t, const Progress&);
 template std::optional<ExactLabels> solve_exactly(const Labelling<2>&, std::uint32_t, const Progress&);
+template std::optional<ExactLabels> solve_exactly(const Labelling<4>&, std::uint32_t, const Progress&);
 
 }  // namespace thalweg

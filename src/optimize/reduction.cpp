@@ -215,7 +215,9 @@ Partition split(const Labelling<Criteria>& problem, const Reduction& reduction) 
 
 template Reduction reduce(const Labelling<1>&, const Progress&);
 template Reduction reduce(const Labelling<2>&, const Progress&);
+template Reduction reduce(const Labelling<4>&, const Progress&);
 template Partition split(const Labelling<1>&, const Reduction&);
 template Partition split(const Labelling<2>&, const Reduction&);
+template Partition split(const Labelling<4>&, const Reduction&);
 
 }  // namespace thalweg

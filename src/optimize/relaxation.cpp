@@ -157,5 +157,6 @@ Relaxed<Criteria> relax(const Labelling<Criteria>& problem, const Cost<Criteria>
 
 template Relaxed<1> relax(const Labelling<1>&, const Cost<1>&, std::uint32_t, std::uint64_t, const Progress&);
 template Relaxed<2> relax(const Labelling<2>&, const Cost<2>&, std::uint32_t, std::uint64_t, const Progress&);
+template Relaxed<4> relax(const Labelling<4>&, const Cost<4>&, std::uint32_t, std::uint64_t, const Progress&);
 
 }  // namespace thalweg

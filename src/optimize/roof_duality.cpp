@@ -154,5 +154,6 @@ RoofDual find_roof_dual(const Labelling<Criteria>& problem, const Progress& prog
 
 template RoofDual find_roof_dual(const Labelling<1>&, const Progress&);
 template RoofDual find_roof_dual(const Labelling<2>&, const Progress&);
+template RoofDual find_roof_dual(const Labelling<4>&, const Progress&);
 
 }  // namespace thalweg

@@ -72,5 +72,7 @@ template Solution<1> solve(const Labelling<1>&, std::span<const std::uint32_t>, 
                            const Progress&);
 template Solution<2> solve(const Labelling<2>&, std::span<const std::uint32_t>, const SolverLimits&,
                            const Progress&);
+template Solution<4> solve(const Labelling<4>&, std::span<const std::uint32_t>, const SolverLimits&,
+                           const Progress&);
 
 }  // namespace thalweg

@@ -135,5 +135,7 @@ template Solution<1> bracket(const Labelling<1>&, std::int64_t, std::uint32_t, s
                              const Progress&);
 template Solution<2> bracket(const Labelling<2>&, std::int64_t, std::uint32_t, std::uint64_t,
                              const Progress&);
+template Solution<4> bracket(const Labelling<4>&, std::int64_t, std::uint32_t, std::uint64_t,
+                             const Progress&);
 
 }  // namespace thalweg

@@ -40,28 +40,16 @@ unsigned parse_order(const std::string& text) {
   throw Error(ErrorCode::Usage, "--order takes 0 or 1, not '" + text + "'; higher orders are not available");
 }
 
-std::string criterion_names() {
-  std::string names;
-  for (const CriterionTraits& traits : all_criteria()) {
-    names += (names.empty() ? "" : ", ") + std::string(traits.name);
-  }
-  return names;
-}
-
-std::vector<Criterion> parse_criteria(const std::string& text) {
-  std::vector<Criterion> criteria;
+std::vector<Objective> parse_criteria(const std::string& text) {
+  std::vector<Objective> criteria;
   if (text == "none") return criteria;
   std::istringstream list(text);
   for (std::string name; std::getline(list, name, ',');) {
-    const auto criterion = find_criterion(name);
-    if (!criterion) {
-      throw Error(ErrorCode::Usage,
-                  "--optimize: '" + name + "' is no criterion; there are " + criterion_names());
-    }
-    if (std::find(criteria.begin(), criteria.end(), *criterion) != criteria.end()) {
+    Objective objective = parse_objective(name);
+    if (std::find(criteria.begin(), criteria.end(), objective) != criteria.end()) {
       throw Error(ErrorCode::Usage, "--optimize names '" + name + "' twice");
     }
-    criteria.push_back(*criterion);
+    criteria.push_back(std::move(objective));
   }
   if (criteria.empty()) throw Error(ErrorCode::Usage, "--optimize is empty; give criteria or none");
   return criteria;

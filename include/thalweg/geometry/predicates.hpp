@@ -9,12 +9,15 @@
 
 #include <thalweg/geometry/point.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace thalweg {
 
 namespace detail {
 int orientation_exact(Point2 a, Point2 b, Point2 c);
+int side_of_plane_exact(Point2 a, Point2 b, Point2 c, Point2 d, const std::array<double, 4>& heights);
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d);
 int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d);
 bool in_circle_perturbed_exact(Point2 a, Point2 b, Point2 c, Point2 d);
@@ -71,6 +74,30 @@ inline int in_circle_filtered(Point2 a, Point2 b, Point2 c, Point2 d) {
 inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
   const int sign = in_circle_filtered(a, b, c, d);
   return sign != kUndecided ? sign : detail::in_circle_exact(a, b, c, d);
+}
+
+/// +1 if d lies above the plane through a, b, c, -1 if below, 0 if on it; heights in the order of the points.
+/// Pre: a, b, c counter-clockwise.
+inline int side_of_plane(Point2 a, Point2 b, Point2 c, Point2 d, const std::array<double, 4>& heights) {
+  constexpr double kEpsilon = 0x1p-53;
+  constexpr double kBound = (7 + 56 * kEpsilon) * kEpsilon;
+  constexpr double kNoUnderflow = 1e-250;
+  const double adx = a.x - d.x, bdx = b.x - d.x, cdx = c.x - d.x;
+  const double ady = a.y - d.y, bdy = b.y - d.y, cdy = c.y - d.y;
+  const double adz = heights[0] - heights[3], bdz = heights[1] - heights[3], cdz = heights[2] - heights[3];
+  const double bc = bdx * cdy, cb = cdx * bdy;
+  const double ca = cdx * ady, ac = adx * cdy;
+  const double ab = adx * bdy, ba = bdx * ady;
+  const double below = adz * (bc - cb) + bdz * (ca - ac) + cdz * (ab - ba);  // positive: d is below
+  const double magnitude = (std::abs(bc) + std::abs(cb)) * std::abs(adz) +
+                           (std::abs(ca) + std::abs(ac)) * std::abs(bdz) +
+                           (std::abs(ab) + std::abs(ba)) * std::abs(cdz);
+  if (adz == 0 && bdz == 0 && cdz == 0) return 0;
+  if (magnitude > kNoUnderflow) {
+    if (below > kBound * magnitude) return -1;
+    if (-below > kBound * magnitude) return 1;
+  }
+  return detail::side_of_plane_exact(a, b, c, d, heights);
 }
 
 /// True if d counts as inside the circle through a, b, c under the tie rule: of four cocircular points the

@@ -5,19 +5,28 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace thalweg {
 
+/// What each one measures, precisely, is said where it is declared: src/optimize/criterion.cpp.
 enum class Criterion : std::uint8_t {
-  LocalMinima,    ///< number of interior pits, as find_pits counts them
-  NormalAngleSum  ///< sum over interior edges of the angle between the normals of the two triangles
+  LocalMinima,
+  NormalAngleSum,
+  NormalAngleSquares,
+  EdgeLength,
+  AreaRatioSum,
+  ConvexEdges,
+  FlatTriangles
 };
 
 /// What one term of a criterion depends on.
 enum class Coupling : std::uint8_t {
-  Edge,    ///< the two triangles at an edge, so at most two quadrilaterals
-  Plateau  ///< all edges that leave a connected set of vertices of equal height
+  OneTriangle,  ///< a triangle
+  Edge,      ///< the two triangles at an interior edge, so at most two quadrilaterals
+  Plateau    ///< all edges that leave a connected set of vertices of equal height
 };
 
 /// How terms become the value.
@@ -25,7 +34,7 @@ enum class Combination : std::uint8_t { Sum, Count };
 
 enum class Direction : std::uint8_t { Minimise, Maximise };
 
-/// All that is known of a criterion, in one place.
+/// All that is known of a criterion but its term.
 struct CriterionTraits {
   Criterion criterion;
   std::string_view name;  ///< as on the command line and in the report
@@ -40,5 +49,35 @@ std::span<const CriterionTraits> all_criteria();
 const CriterionTraits& traits_of(Criterion criterion);
 /// The criterion with this name, if there is one.
 std::optional<Criterion> find_criterion(std::string_view name);
+
+/// What one level of priority optimises: a criterion, or a weighted sum of criteria.
+///
+/// A weighted sum is minimised, whatever the directions of its parts; a part to be maximised has a negative
+/// weight. Its unit is none; each term is weighted, then rounded, once.
+struct Objective {
+  struct Part {
+    Criterion criterion;
+    double weight = 1;
+    bool operator==(const Part&) const = default;
+  };
+  Objective(Criterion criterion) : parts{{criterion}} {}  // NOLINT(google-explicit-constructor)
+  explicit Objective(std::vector<Part> weighted) : parts(std::move(weighted)), is_weighted(true) {}
+
+  std::vector<Part> parts;
+  bool is_weighted = false;  ///< false: one criterion, weight 1, in its own direction
+
+  [[nodiscard]] bool is(Criterion criterion) const {
+    return !is_weighted && parts.front().criterion == criterion;
+  }
+  [[nodiscard]] std::string name() const;  ///< as `parse_objective` reads it
+  [[nodiscard]] std::string_view unit() const;
+  [[nodiscard]] Direction direction() const;
+  bool operator==(const Objective&) const = default;
+};
+
+/// Reads a criterion's name, or a weighted sum such as `2*edge-length+0.5*normal-angle-sum-convex-edges`.
+/// Throws: Error{Usage} if a name is unknown or repeated, a weight is no finite number or 0, or a part is no
+/// sum (a count is one; a largest or smallest value and local-minima are not).
+Objective parse_objective(std::string_view text);
 
 }  // namespace thalweg

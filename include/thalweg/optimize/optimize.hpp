@@ -19,7 +19,7 @@ constexpr std::uint32_t kMaxWidthLimit = 24;
 
 struct OptimizeOptions {
   /// In order of priority: each decides among the triangulations that are best in all before it.
-  std::vector<Criterion> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
+  std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   double horizontal_metres_per_unit = 1;
   double vertical_metres_per_unit = 1;
   /// Largest number of undecided quadrilaterals that one table of the dynamic program covers, 1 to 24; a

@@ -31,7 +31,7 @@ struct OutputConfig {
 struct LabellingConfig {
   unsigned order = 1;  ///< 0 or 1
   OrderDefinition definition = OrderDefinition::SeesOpp;
-  std::vector<Criterion> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
+  std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own
 };
 

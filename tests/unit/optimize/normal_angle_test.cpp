@@ -1,4 +1,4 @@
-#include "optimize/normal_angle.hpp"
+#include "optimize/face.hpp"
 
 #include "support/meshes.hpp"
 
@@ -41,11 +41,11 @@ TEST(NormalAngle, IsSymmetricAndSurvivesExtremes) {
 }
 
 TEST(NormalAngle, NormalDependsOnTheTriangleAlone) {
-  const Tin tin = make_tin({{0.1, 0.7}, {3.3, -1.9}, {2.7, 4.1}}, {triangle(0, 1, 2)}, {}, {0.3, 1.7, -2.2});
-  const VertexId a{std::size_t{0}}, b{std::size_t{1}}, c{std::size_t{2}};
-  const Vector3 n = upward_normal(tin, {2, 0.5}, a, b, c);
-  for (const Vector3& m : {upward_normal(tin, {2, 0.5}, b, c, a), upward_normal(tin, {2, 0.5}, c, a, b)}) {
-    EXPECT_TRUE(m.x == n.x && m.y == n.y && m.z == n.z);
+  const Corner a{{0.1, 0.7}, 0.3}, b{{3.3, -1.9}, 1.7}, c{{2.7, 4.1}, -2.2};
+  const Vector3 n = make_face(a, b, c, {2, 0.5}).normal;
+  for (const Face& face : {make_face(b, c, a, {2, 0.5}), make_face(c, a, b, {2, 0.5})}) {
+    EXPECT_TRUE(face.normal.x == n.x && face.normal.y == n.y && face.normal.z == n.z);
+    EXPECT_EQ(face.corner[0], a);
   }
   EXPECT_GT(n.z, 0);
 }

@@ -1,0 +1,65 @@
+// What of the terms is topology alone: which triangle is in which quadrilateral, who is whose neighbour.
+//
+// Quadrilateral q offers two triangles for each label: suv and vut, or sut and tvs. A term of an edge is
+// decided by no label, by one (on a diagonal, and on a side whose other triangle is free of choice), or by
+// two. A side between two quadrilaterals is scanned once, by the lower one.
+#include "optimize/term_scan.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <string>
+
+namespace thalweg {
+
+std::vector<std::uint32_t> quadrilaterals_of_triangles(const Tin& tin,
+                                                       std::span<const Quadrilateral> quadrilaterals) {
+  std::vector<std::uint32_t> owner(tin.triangle_count(), kNone);
+  for (std::size_t q = 0; q < quadrilaterals.size(); ++q) {
+    const HalfedgeId diagonal = quadrilaterals[q].diagonal;
+    for (const HalfedgeId h : {diagonal, tin.twin(diagonal)}) {
+      std::uint32_t& triangle = owner[Tin::triangle_of(h).index()];
+      if (triangle != kNone) {
+        throw Error(
+            ErrorCode::Unsupported,
+            "two quadrilaterals share triangle " + std::to_string(Tin::triangle_of(h).value()) +
+                ", as can be under sees-3vtx and empty-quad; choose a stronger definition, such as sees-opp");
+      }
+      triangle = static_cast<std::uint32_t>(q);
+    }
+  }
+  return owner;
+}
+
+std::array<Side, 4> sides_of(const Tin& tin, const Quadrilateral& quadrilateral) {
+  const HalfedgeId uv = quadrilateral.diagonal;
+  const HalfedgeId vu = tin.twin(uv);
+  return {
+      {{Tin::previous(uv), true}, {Tin::next(vu), true}, {Tin::previous(vu), false}, {Tin::next(uv), false}}};
+}
+
+TermScan::Rows TermScan::lay_out_rows(const Progress& progress) const {
+  Rows rows;
+  const std::size_t count = quadrilaterals_.size();
+  rows.first.assign(count + 1, 0);
+  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      for (const Side& side : sides_of(tin_, quadrilaterals_[q])) {
+        rows.first[q + 1] += owner_across(side.inner) != kNone ? 1 : 0;
+      }
+    }
+  });
+  for (std::size_t q = 0; q < count; ++q) rows.first[q + 1] += rows.first[q];
+  rows.neighbour.resize(rows.first.back());
+  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t q = begin; q < end; ++q) {
+      std::uint32_t at = rows.first[q];
+      for (const Side& side : sides_of(tin_, quadrilaterals_[q])) {
+        const std::uint32_t p = owner_across(side.inner);
+        if (p != kNone) rows.neighbour[at++] = p;
+      }
+    }
+  });
+  return rows;
+}
+
+}  // namespace thalweg
