@@ -4,12 +4,11 @@
 // Lengths, areas and angles between edges are measured in the plane of triangulation, in metres; normals in
 // space, with heights in metres. A term is a plain function of geometry that depends neither on ids nor on
 // the order of corners, and uses only operations that IEEE 754 rounds correctly.
-#include <thalweg/optimize/criterion.hpp>
-
 #include "optimize/declaration.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/optimize/criterion.hpp>
 
 #include <algorithm>
 #include <array>
@@ -76,14 +75,47 @@ double flat_triangle(const Face& face, Scale /*scale*/) {
   return a.height == b.height && b.height == c.height ? 1 : 0;
 }
 
+constexpr double kDegreesPerRadian = 0x1.ca5dc1a63c1f8p+5;
+
+double normal_angle_in_degrees(const Face& left, const Face& right, Scale scale) {
+  return normal_angle(left, right, scale) * kDegreesPerRadian;
+}
+
+/// Area of a triangle in the plane, in square metres.
+double area(const Face& face, Scale /*scale*/) {
+  return face.normal.z / 2;
+}
+
+/// Angles of a triangle in the plane at its three corners, in degrees.
+std::array<double, 3> angles_of(const Face& face, Scale scale) {
+  std::array<double, 3> angles{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point2 at = face.corner[i].at, p = face.corner[(i + 1) % 3].at, q = face.corner[(i + 2) % 3].at;
+    const double px = (p.x - at.x) * scale.horizontal, py = (p.y - at.y) * scale.horizontal;
+    const double qx = (q.x - at.x) * scale.horizontal, qy = (q.y - at.y) * scale.horizontal;
+    angles[i] = angle_between({px, py, 0}, {qx, qy, 0}) * kDegreesPerRadian;
+  }
+  return angles;
+}
+
+double largest_angle(const Face& face, Scale scale) {
+  const std::array<double, 3> angles = angles_of(face, scale);
+  return *std::max_element(angles.begin(), angles.end());
+}
+
+double smallest_angle(const Face& face, Scale scale) {
+  const std::array<double, 3> angles = angles_of(face, scale);
+  return *std::min_element(angles.begin(), angles.end());
+}
+
 constexpr auto kMinimise = Direction::Minimise;
 constexpr auto kMaximise = Direction::Maximise;
 
 constexpr std::array kDeclarations = {
     // Interior pits as find_pits counts them: maximal connected sets of vertices of equal height without a
     // lower neighbour, off the boundary, and no lake. De Kok, van Kreveld, Loeffler 2007.
-    Declaration{{Criterion::LocalMinima, "local-minima", "count", kMinimise, Coupling::Plateau,
-                 Combination::Count}},
+    Declaration{
+        {Criterion::LocalMinima, "local-minima", "count", kMinimise, Coupling::Plateau, Combination::Count}},
     Declaration{{Criterion::NormalAngleSum, "normal-angle-sum", "radians", kMinimise, Coupling::Edge,
                  Combination::Sum},
                 nullptr,
@@ -106,6 +138,25 @@ constexpr std::array kDeclarations = {
     Declaration{{Criterion::FlatTriangles, "flat-triangles", "count", kMinimise, Coupling::OneTriangle,
                  Combination::Count},
                 flat_triangle},
+    Declaration{{Criterion::NormalAngleMax, "normal-angle-max", "degrees", kMinimise, Coupling::Edge,
+                 Combination::Max},
+                nullptr,
+                normal_angle_in_degrees},
+    Declaration{
+        {Criterion::AreaRatioMax, "area-ratio-max", "ratio", kMinimise, Coupling::Edge, Combination::Max},
+        nullptr,
+        area_ratio},
+    Declaration{
+        {Criterion::MaxArea, "max-area", "square metres", kMinimise, Coupling::OneTriangle, Combination::Max},
+        area},
+    // Bern, Eppstein, Mesh generation and optimal triangulation, 1992: the min-max angle and the max-min
+    // angle triangulation.
+    Declaration{
+        {Criterion::MaxAngle, "max-angle", "degrees", kMinimise, Coupling::OneTriangle, Combination::Max},
+        largest_angle},
+    Declaration{
+        {Criterion::MinAngle, "min-angle", "degrees", kMaximise, Coupling::OneTriangle, Combination::Min},
+        smallest_angle},
 };
 
 constexpr auto kTraits = [] {
@@ -153,6 +204,11 @@ std::optional<Criterion> find_criterion(std::string_view name) {
     if (traits.name == name) return traits.criterion;
   }
   return std::nullopt;
+}
+
+bool Objective::is_extreme() const {
+  const Combination combination = traits_of(parts.front().criterion).combination;
+  return !is_weighted && (combination == Combination::Max || combination == Combination::Min);
 }
 
 std::string Objective::name() const {

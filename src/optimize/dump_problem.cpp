@@ -203,6 +203,13 @@ void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilater
   if (options.criteria.empty()) {
     throw Error(ErrorCode::Usage, "without a criterion there is no problem to write; choose one");
   }
+  const auto sum = std::find_if(options.criteria.begin(), options.criteria.end(),
+                                [](const Objective& o) { return !o.is(Criterion::LocalMinima); });
+  if (sum != options.criteria.end() && sum->is_extreme()) {
+    throw Error(ErrorCode::Unsupported, sum->name() +
+                                            " is the worst of its terms, not a sum that a problem for "
+                                            "another solver could hold; name a sum first");
+  }
   progress.start_phase("write the problem");
   with_levels(options.criteria, [&](auto levels) {
     Writer<levels()>(out, build_problem<levels()>(tin, quadrilaterals, options, progress)).write(progress);

@@ -41,8 +41,9 @@ std::size_t count_levels(std::span<const Objective> criteria) {
   std::size_t sums = 0;
   for (const Objective& objective : criteria) sums += objective.is(Criterion::LocalMinima) ? 0 : 1;
   if (sums > kMost) {
-    throw Error(ErrorCode::Usage, "there are " + std::to_string(sums) +
-                                      " criteria that are sums; at most 4 can be put in order of priority");
+    throw Error(ErrorCode::Usage,
+                "there are " + std::to_string(sums) +
+                    " criteria besides local-minima; at most 4 can be put in order of priority");
   }
   return std::bit_ceil(std::max<std::size_t>(sums, 1));
 }
@@ -60,7 +61,8 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
       problem.sums.push_back(objective);
     }
   }
-  const std::vector<std::uint32_t> owner = quadrilaterals_of_triangles(tin, quadrilaterals);
+  problem.owner = quadrilaterals_of_triangles(tin, quadrilaterals);
+  const std::vector<std::uint32_t>& owner = problem.owner;
   const Scale scale{options.horizontal_metres_per_unit, options.vertical_metres_per_unit};
   const TermScan scan(tin, quadrilaterals, owner, scale);
   Labelling<Criteria>& labelling = problem.labelling;
@@ -75,7 +77,9 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   }
   progress.advance(0.1);
   for (std::size_t level = 0; level < problem.sums.size(); ++level) {
-    problem.delaunay[level] = add_objective(scan, problem.sums[level], level, labelling, progress);
+    if (!problem.sums[level].is_extreme()) {
+      problem.delaunay[level] = add_objective(scan, problem.sums[level], level, labelling, progress);
+    }
     progress.advance(0.1 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
   }
   problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);

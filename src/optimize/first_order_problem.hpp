@@ -17,14 +17,17 @@ namespace thalweg {
 
 template <std::size_t Criteria>
 struct FirstOrderProblem {
-  std::vector<Objective> sums;  ///< the objectives that are sums, in order of priority
+  /// The objectives but local minima, in order of priority. The level of one that is an extreme is for the
+  /// number of terms beyond a limit; it is empty at first.
+  std::vector<Objective> sums;
   bool counts_pits = false;
   std::size_t sums_before_pits = 0;  ///< how many of the sums go before local minima
 
   Labelling<Criteria> labelling;  ///< level i is sums[i]; label 1 flips; without links
   std::array<WideSteps, Criteria> delaunay{};
-  std::vector<std::uint32_t> rank;  ///< of quadrilaterals, by coordinates alone
-  PlateauGraph plateaus;            ///< if pits are counted
+  std::vector<std::uint32_t> owner;  ///< the quadrilateral of each triangle, or kNone
+  std::vector<std::uint32_t> rank;   ///< of quadrilaterals, by coordinates alone
+  PlateauGraph plateaus;             ///< if pits are counted
 };
 
 /// Levels of costs that the criteria need: 1, 2 or 4. Throws: Error{Usage} if that is not enough.

@@ -4,7 +4,11 @@
 // 2. Local minima first, or alone: the labellings whose links connect all they can are those with the fewest
 // pits; of
 //    them the one of least cost (solver.cpp).
-// 3. Local minima after other criteria: solve as if they came first. If the sums that precede them are proved
+// 3. An objective that is the worst of its terms: what matters is that no term is beyond the least limit that
+//    leaves the criteria before it at their best. Its level counts the terms beyond a limit; the least limit
+//    with none is found by bisection among the values of terms, each step a solution of levels up to this
+//    one. Below it the next criterion decides; if none is named, the sum of normal angles.
+// 4. Local minima after other criteria: solve as if they came first. If the sums that precede them are proved
 //    to be no larger without links, the result is best in them, and has fewest pits of all triangulations. If
 //    not, solve without links, and report the pits of that with the fewest of all as bound.
 #include "optimize/first_order_problem.hpp"
@@ -12,8 +16,11 @@
 
 #include <thalweg/optimize/optimize.hpp>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -31,12 +38,15 @@ std::string method_name(const SolverFigures& figures) {
 template <std::size_t Criteria>
 class Run {
  public:
+  /// `reported` are those of the options' criteria that were asked for.
   Run(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, const OptimizeOptions& options,
-      Progress& progress)
-      : criteria_(options.criteria), limits_{options.width_limit, options.effort}, progress_(progress) {
-    progress_.start_phase("weigh diagonals");
-    problem_ = build_problem<Criteria>(tin, quadrilaterals, options, progress);
-  }
+      std::size_t reported, Progress& progress)
+      : criteria_(std::span(options.criteria).first(reported)),
+        limits_{options.width_limit, options.effort},
+        progress_(progress),
+        problem_(begin(tin, quadrilaterals, options, progress)),
+        scan_(tin, quadrilaterals, problem_.owner,
+              {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}) {}
 
   OptimizeResult run() {
     progress_.start_phase("choose diagonals");
@@ -46,7 +56,64 @@ class Run {
   }
 
  private:
+  static FirstOrderProblem<Criteria> begin(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
+                                           const OptimizeOptions& options, Progress& progress) {
+    progress.start_phase("weigh diagonals");
+    return build_problem<Criteria>(tin, quadrilaterals, options, progress);
+  }
+
+  /// Levels up to and with an extreme, some limit set, as a problem of their own: later levels are empty.
+  [[nodiscard]] Labelling<Criteria> up_to(std::size_t level) const {
+    Labelling<Criteria> part = problem_.labelling;
+    for (Cost<Criteria>& cost : part.unary) {
+      std::fill(cost.level.begin() + level, cost.level.begin() + Criteria, 0);
+    }
+    for (Weight<Criteria>& weight : part.weight) std::fill(weight.begin() + level, weight.end(), 0);
+    if (problem_.counts_pits && problem_.sums_before_pits <= level) {
+      part.link = problem_.plateaus.link;
+      part.node_count = problem_.plateaus.node_count;
+    }
+    return part;
+  }
+
+  void settle(std::size_t level) {
+    const Objective& objective = problem_.sums[level];
+    Labelling<Criteria> part = up_to(level);
+    const Extreme extreme = find_extreme(scan_, objective, part.first, progress_);
+    const auto worst = [&](const Solution<Criteria>& solution) {
+      return extreme_of(scan_, objective, part.first, solution.label, progress_);
+    };
+    const Solution<Criteria> before = solve<Criteria>(part, problem_.rank, limits_, progress_);
+    Settled& settled = settled_[level];
+    settled = {extreme.delaunay, worst(before), extreme.values.front()};
+    auto low = extreme.values.begin();
+    auto high = std::lower_bound(low, extreme.values.end(), settled.limit);
+    while (low < high) {
+      const auto middle = low + (high - low) / 2;
+      const std::int64_t constant = count_excess(scan_, objective, *middle, level, part, progress_);
+      const Solution<Criteria> trial = solve<Criteria>(part, problem_.rank, limits_, progress_);
+      if (same_before(trial.value, before.value, level) && trial.value.level[level] + constant == 0) {
+        settled.limit = worst(trial);
+        high = std::lower_bound(extreme.values.begin(), middle, settled.limit);
+        continue;
+      }
+      const bool excluded =
+          same_before(trial.bound, before.value, level) && trial.bound.level[level] + constant > 0;
+      low = middle + 1;
+      if (excluded && low != extreme.values.end()) settled.bound = *low;
+    }
+    problem_.delaunay[level] =
+        count_excess(scan_, objective, settled.limit, level, problem_.labelling, progress_);
+  }
+
+  static bool same_before(const Cost<Criteria>& a, const Cost<Criteria>& b, std::size_t level) {
+    return std::equal(a.level.begin(), a.level.begin() + level, b.level.begin());
+  }
+
   void choose() {
+    for (std::size_t level = 0; level < problem_.sums.size(); ++level) {
+      if (problem_.sums[level].is_extreme()) settle(level);
+    }
     Labelling<Criteria>& labelling = problem_.labelling;
     labelling.link = problem_.plateaus.link;
     labelling.node_count = problem_.plateaus.node_count;
@@ -79,7 +146,13 @@ class Run {
       line.name = objective.name();
       line.unit = objective.unit();
       line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
-      objective.is(Criterion::LocalMinima) ? fill_pits(line) : fill_sum(line, level++);
+      if (objective.is(Criterion::LocalMinima)) {
+        fill_pits(line);
+      } else if (objective.is_extreme()) {
+        fill_extreme(line, level++);
+      } else {
+        fill_sum(line, level++);
+      }
       result.criteria.push_back(std::move(line));
     }
     return result;
@@ -92,6 +165,18 @@ class Run {
     line.bound = static_cast<double>(count_pits(problem_.plateaus, all));
     line.optimal = line.result == line.bound;
     line.method = "connectivity";
+  }
+
+  void fill_extreme(CriterionResult& line, std::size_t level) const {
+    const Settled& settled = settled_[level];
+    const double per_unit = line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit;
+    const std::int64_t result =
+        extreme_of(scan_, problem_.sums[level], problem_.labelling.first, solution_.label, progress_);
+    line.delaunay = static_cast<double>(settled.delaunay) / per_unit;
+    line.result = static_cast<double>(result) / per_unit;
+    line.bound = static_cast<double>(settled.bound) / per_unit;
+    line.optimal = result == settled.bound;
+    line.method = "bisection over limits by " + method_name(solution_.figures);
   }
 
   /// Bounds compare lexicographically: that of a level holds if all levels before have reached theirs. If
@@ -107,10 +192,17 @@ class Run {
     line.method = method_name(solution_.figures);
   }
 
-  const std::vector<Objective>& criteria_;
+  /// An extreme, in steps as in sums.hpp: the least limit that was reached, and one that cannot be beaten.
+  struct Settled {
+    std::int64_t delaunay = 0, limit = 0, bound = 0;
+  };
+
+  std::span<const Objective> criteria_;
   SolverLimits limits_;
   Progress& progress_;
   FirstOrderProblem<Criteria> problem_;
+  TermScan scan_;
+  std::array<Settled, Criteria> settled_{};
   Solution<Criteria> solution_;
 };
 
@@ -119,8 +211,13 @@ class Run {
 OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                     const OptimizeOptions& options, Progress& progress) {
   if (!options.criteria.empty()) {
-    return with_levels(options.criteria, [&](auto levels) {
-      return Run<levels()>(tin, quadrilaterals, options, progress).run();
+    OptimizeOptions completed = options;
+    const bool open = options.criteria.back().is_extreme() &&
+                      std::none_of(options.criteria.begin(), options.criteria.end(),
+                                   [](const Objective& o) { return o.is(Criterion::NormalAngleSum); });
+    if (open) completed.criteria.emplace_back(Criterion::NormalAngleSum);
+    return with_levels(completed.criteria, [&](auto levels) {
+      return Run<levels()>(tin, quadrilaterals, completed, options.criteria.size(), progress).run();
     });
   }
   OptimizeResult result;

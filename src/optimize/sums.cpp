@@ -1,28 +1,41 @@
 // Sums of terms as a quadratic function of labels.
 //
 // A term of two labels is written f00 + (f10 - f00) x + (f01 - f00) y + w x y, w = f11 - f10 - f01 + f00, in
-// steps: each value is weighted and rounded once, all that follows is exact. Unary costs are added atomically:
-// the order of integer additions does not matter; what a block adds to one quadrilateral in a row is added at
-// once.
+// steps: each value is weighted and rounded once, all that follows is exact. Unary costs are added
+// atomically: the order of integer additions does not matter; what a block adds to one quadrilateral in a row
+// is added at once.
 #include "optimize/sums.hpp"
 
 #include <thalweg/base/error.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace thalweg {
 
 namespace {
 
+/// A term in steps, weighted; or, with a limit, 1 if it is beyond it and 0 if not.
+struct Measure {
+  double factor = 1;
+  std::optional<std::int64_t> limit;
+  std::int64_t operator()(double value) const {
+    const std::int64_t steps = to_steps(factor * value);
+    if (!limit) return steps;
+    return steps > *limit ? 1 : 0;
+  }
+};
+
 template <std::size_t Criteria>
 class SumSink {
  public:
-  SumSink(Labelling<Criteria>& labelling, std::size_t level, double factor)
-      : labelling_(labelling), level_(level), factor_(factor) {}
+  SumSink(Labelling<Criteria>& labelling, std::size_t level, Measure measure)
+      : labelling_(labelling), level_(level), measure_(measure) {}
 
   [[nodiscard]] WideSteps delaunay() const { return delaunay_; }
 
@@ -61,7 +74,7 @@ class SumSink {
     }
 
    private:
-    [[nodiscard]] std::int64_t steps(double value) const { return to_steps(sink_.factor_ * value); }
+    [[nodiscard]] std::int64_t steps(double value) const { return sink_.measure_(value); }
     void turn_to(std::uint32_t q) {
       if (q == current_) return;
       flush();
@@ -85,7 +98,7 @@ class SumSink {
 
   Labelling<Criteria>& labelling_;
   std::size_t level_;
-  double factor_;
+  Measure measure_;
   std::mutex mutex_;
   WideSteps delaunay_ = 0;
 };
@@ -115,13 +128,156 @@ WideSteps add_objective(const TermScan& scan, const Objective& objective, std::s
   WideSteps delaunay = 0;
   for (const Objective::Part& part : objective.parts) {
     const double sign = objective.direction() == Direction::Maximise ? -1 : 1;
-    SumSink<Criteria> sink(labelling, level, sign * part.weight);
+    SumSink<Criteria> sink(labelling, level, {sign * part.weight, std::nullopt});
     scan.run(declaration_of(part.criterion), labelling.first, sink, progress);
     delaunay += sink.delaunay();
   }
   refuse_overflow(labelling, level, objective);
   return delaunay;
 }
+
+namespace {
+
+double sign_of(const Objective& objective) {
+  return objective.direction() == Direction::Maximise ? -1 : 1;
+}
+
+/// Gathers the values of terms, and the least value that each of them alone leaves possible.
+class ExtremeSink {
+ public:
+  explicit ExtremeSink(double sign) : measure_{sign, std::nullopt} {}
+
+  class Block {
+   public:
+    explicit Block(ExtremeSink& sink) : sink_(sink) {}
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+    ~Block() {
+      const std::lock_guard lock(sink_.mutex_);
+      sink_.least_ = std::max(sink_.least_, least_);
+      sink_.delaunay_ = std::max(sink_.delaunay_, delaunay_);
+      sink_.values_.insert(sink_.values_.end(), values_.begin(), values_.end());
+    }
+    void constant(double value) { note(sink_.measure_(value), sink_.measure_(value)); }
+    template <std::size_t Terms>
+    void single(std::uint32_t /*q*/, const std::array<double, Terms>& f0,
+                const std::array<double, Terms>& f1) {
+      const std::int64_t zero = worst(f0), one = worst(f1);
+      note(zero, std::min(zero, one));
+      values_.push_back(one);
+    }
+    void pair(const Neighbours& /*at*/, const PairValues& f) {
+      std::array<std::int64_t, 4> steps{};
+      std::transform(f.begin(), f.end(), steps.begin(), sink_.measure_);
+      note(steps[0], *std::min_element(steps.begin(), steps.end()));
+      values_.insert(values_.end(), steps.begin() + 1, steps.end());
+    }
+
+   private:
+    void note(std::int64_t kept, std::int64_t least) {
+      delaunay_ = std::max(delaunay_, kept);
+      least_ = std::max(least_, least);
+      values_.push_back(kept);
+    }
+    template <std::size_t Terms>
+    [[nodiscard]] std::int64_t worst(const std::array<double, Terms>& f) const {
+      std::int64_t most = kLowest;
+      for (const double value : f) most = std::max(most, sink_.measure_(value));
+      return most;
+    }
+
+    ExtremeSink& sink_;
+    std::int64_t least_ = kLowest, delaunay_ = kLowest;
+    std::vector<std::int64_t> values_;
+  };
+
+  Extreme take() {
+    if (values_.empty()) return {0, {0}};
+    std::erase_if(values_, [&](std::int64_t value) { return value < least_; });
+    std::sort(values_.begin(), values_.end());
+    values_.erase(std::unique(values_.begin(), values_.end()), values_.end());
+    return {delaunay_, std::move(values_)};
+  }
+
+ private:
+  static constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+  Measure measure_;
+  std::mutex mutex_;
+  std::int64_t least_ = kLowest, delaunay_ = kLowest;
+  std::vector<std::int64_t> values_;
+};
+
+/// The worst term under given labels.
+class LabelledSink {
+ public:
+  LabelledSink(double sign, std::span<const Label> label) : measure_{sign, std::nullopt}, label_(label) {}
+  [[nodiscard]] std::int64_t worst() const { return worst_ == kLowest ? 0 : worst_; }
+
+  class Block {
+   public:
+    explicit Block(LabelledSink& sink) : sink_(sink) {}
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+    ~Block() {
+      const std::lock_guard lock(sink_.mutex_);
+      sink_.worst_ = std::max(sink_.worst_, worst_);
+    }
+    void constant(double value) { worst_ = std::max(worst_, sink_.measure_(value)); }
+    template <std::size_t Terms>
+    void single(std::uint32_t q, const std::array<double, Terms>& f0, const std::array<double, Terms>& f1) {
+      for (const double value : sink_.is_one(q) ? f1 : f0) constant(value);
+    }
+    void pair(const Neighbours& at, const PairValues& f) {
+      constant(f[(sink_.is_one(at.q) ? 1U : 0U) + (sink_.is_one(at.p) ? 2U : 0U)]);
+    }
+
+   private:
+    LabelledSink& sink_;
+    std::int64_t worst_ = kLowest;
+  };
+
+ private:
+  static constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
+  [[nodiscard]] bool is_one(std::uint32_t q) const { return label_[q] == Label::One; }
+  Measure measure_;
+  std::span<const Label> label_;
+  std::mutex mutex_;
+  std::int64_t worst_ = kLowest;
+};
+
+}  // namespace
+
+Extreme find_extreme(const TermScan& scan, const Objective& objective, std::span<const std::uint32_t> first,
+                     const Progress& progress) {
+  ExtremeSink sink(sign_of(objective));
+  scan.run(declaration_of(objective.parts.front().criterion), first, sink, progress);
+  return sink.take();
+}
+
+std::int64_t extreme_of(const TermScan& scan, const Objective& objective,
+                        std::span<const std::uint32_t> first, std::span<const Label> label,
+                        const Progress& progress) {
+  LabelledSink sink(sign_of(objective), label);
+  scan.run(declaration_of(objective.parts.front().criterion), first, sink, progress);
+  return sink.worst();
+}
+
+template <std::size_t Criteria>
+std::int64_t count_excess(const TermScan& scan, const Objective& objective, std::int64_t most,
+                          std::size_t level, Labelling<Criteria>& labelling, const Progress& progress) {
+  for (Cost<Criteria>& cost : labelling.unary) cost.level[level] = 0;
+  for (Weight<Criteria>& weight : labelling.weight) weight[level] = 0;
+  SumSink<Criteria> sink(labelling, level, {sign_of(objective), most});
+  scan.run(declaration_of(objective.parts.front().criterion), labelling.first, sink, progress);
+  return static_cast<std::int64_t>(sink.delaunay());
+}
+
+template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,
+                                   Labelling<1>&, const Progress&);
+template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,
+                                   Labelling<2>&, const Progress&);
+template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,
+                                   Labelling<4>&, const Progress&);
 
 template WideSteps add_objective(const TermScan&, const Objective&, std::size_t, Labelling<1>&,
                                  const Progress&);

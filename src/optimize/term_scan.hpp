@@ -164,9 +164,9 @@ void TermScan::scan_quadrilateral_edges(std::uint32_t q, EdgeTerm term, std::spa
                                    [&](const Side& candidate) { return candidate.inner == outer; });
     THALWEG_ASSERT(side != other_sides.end());
     const Face outside_flipped = flipped_face(p, side->at_s_u);
-    block.pair(Neighbours{q, p, slot(first[q], sides, sides[i].inner), slot(first[p], other_sides, outer)},
-               PairValues{f0, f1, term(kept, outside_flipped, scale_),
-                          term(flipped, outside_flipped, scale_)});
+    block.pair(
+        Neighbours{q, p, slot(first[q], sides, sides[i].inner), slot(first[p], other_sides, outer)},
+        PairValues{f0, f1, term(kept, outside_flipped, scale_), term(flipped, outside_flipped, scale_)});
   }
 }
 

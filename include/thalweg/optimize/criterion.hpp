@@ -19,18 +19,23 @@ enum class Criterion : std::uint8_t {
   EdgeLength,
   AreaRatioSum,
   ConvexEdges,
-  FlatTriangles
+  FlatTriangles,
+  NormalAngleMax,
+  AreaRatioMax,
+  MaxArea,
+  MaxAngle,
+  MinAngle
 };
 
 /// What one term of a criterion depends on.
 enum class Coupling : std::uint8_t {
   OneTriangle,  ///< a triangle
-  Edge,      ///< the two triangles at an interior edge, so at most two quadrilaterals
-  Plateau    ///< all edges that leave a connected set of vertices of equal height
+  Edge,         ///< the two triangles at an interior edge, so at most two quadrilaterals
+  Plateau       ///< all edges that leave a connected set of vertices of equal height
 };
 
 /// How terms become the value.
-enum class Combination : std::uint8_t { Sum, Count };
+enum class Combination : std::uint8_t { Sum, Count, Max, Min };
 
 enum class Direction : std::uint8_t { Minimise, Maximise };
 
@@ -69,6 +74,8 @@ struct Objective {
   [[nodiscard]] bool is(Criterion criterion) const {
     return !is_weighted && parts.front().criterion == criterion;
   }
+  /// Whether its value is that of one term, the worst.
+  [[nodiscard]] bool is_extreme() const;
   [[nodiscard]] std::string name() const;  ///< as `parse_objective` reads it
   [[nodiscard]] std::string_view unit() const;
   [[nodiscard]] Direction direction() const;

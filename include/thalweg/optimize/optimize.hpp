@@ -74,7 +74,8 @@ OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilatera
 /// among the criteria in steps of 2^-32 of its unit, the triangulation's constant part included; of flips, if
 /// there is no sum. The optimum found is so 2^32 times the `result` of that criterion. Lower priorities,
 /// flips and the tie rule are left out. Pre and Throws: as optimize_first_order, and Error{Usage} if there is
-/// no criterion. Complexity: linear, but for b^3 where b plateaus hang together.
+/// no criterion; Error{Unsupported} if the first criterion besides local minima is no sum. Complexity:
+/// linear, but for b^3 where b plateaus hang together.
 void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                   const OptimizeOptions& options, Progress& progress);
 

@@ -1,8 +1,8 @@
 // The optimiser on small TINs against all their first-order triangulations, valued by plain code.
+#include "support/first_order_scene.hpp"
 #include "support/plain_surface.hpp"
 #include "support/random.hpp"
 
-#include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/optimize/optimize.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
 
@@ -10,52 +10,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
 namespace thalweg::test {
 namespace {
 
 constexpr double kTolerance = 1e-7;  // of a sum of some dozens of angles, each rounded to 2^-32
-
-struct Scene {
-  Tin tin;
-  std::vector<Quadrilateral> quadrilaterals;
-};
-
-/// A scene with at most `limit` quadrilaterals; heights are whole numbers below `levels`.
-Scene random_scene(Random& random, std::size_t limit, int levels) {
-  const bool lattice = random.integer(0, 2) == 0;
-  std::set<Point2> places;
-  const auto columns = random.integer<std::size_t>(2, 5), rows = random.integer<std::size_t>(2, 5);
-  if (lattice) {
-    for (std::size_t i = 0; i < columns * rows; ++i) {
-      places.insert({static_cast<double>(i % columns) * 2, static_cast<double>(i / columns) * 2});
-    }
-  } else {
-    const auto count = random.integer<std::size_t>(5, 2 * limit);
-    while (places.size() < count) {
-      places.insert({static_cast<double>(random.integer(0, 60)), static_cast<double>(random.integer(0, 60))});
-    }
-  }
-  std::vector<Point2> points(places.begin(), places.end());
-  std::shuffle(points.begin(), points.end(), random.engine());
-  std::vector<double> heights;
-  for (std::size_t i = 0; i < points.size(); ++i) heights.push_back(random.integer(0, levels - 1));
-  Progress progress;
-  const Tin plain = triangulate(points, heights, {}, progress);
-  std::vector<ConstraintEdge> constraints;
-  const int share = random.integer(0, 3);
-  for (std::size_t i = 0; i < plain.halfedge_count(); ++i) {
-    const HalfedgeId h{i};
-    if (!plain.represents_edge(h) || random.integer(0, 19) >= share) continue;
-    constraints.push_back(
-        {plain.origin(h), plain.target(h), random.integer(0, 3) == 0 ? EdgeKind::Lake : EdgeKind::Valley});
-  }
-  Scene scene{triangulate(points, heights, constraints, progress), {}};
-  scene.quadrilaterals = find_quadrilaterals(scene.tin, {}, progress);
-  if (scene.quadrilaterals.size() > limit) scene.quadrilaterals.resize(limit);
-  return scene;
-}
 
 struct Values {
   std::vector<std::uint8_t> flipped;
@@ -92,7 +51,7 @@ double least_angles(const std::vector<Values>& values) {
   return least;
 }
 
-OptimizeResult run(const Scene& scene, std::vector<Criterion> criteria) {
+OptimizeResult run(const Scene& scene, std::vector<Objective> criteria) {
   Progress progress;
   return optimize_first_order(
       scene.tin, scene.quadrilaterals,
