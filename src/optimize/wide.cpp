@@ -36,7 +36,7 @@ class Improver {
   }
 
   /// Pre: `label` connects what can be connected.
-  Solution<Criteria> run(std::vector<Label> label, std::uint64_t effort) {
+  Solution<Criteria> run(std::vector<Label>&& label, std::uint64_t effort) {
     Solution<Criteria> best;
     best.label = std::move(label);
     best.value = cost_of<Criteria>(problem_, best.label);

@@ -19,6 +19,7 @@
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/mesh/validate.hpp>
+#include <thalweg/order/order_tin.hpp>
 #include <thalweg/terrain/pits.hpp>
 #include <thalweg/terrain/statistics.hpp>
 
@@ -198,12 +199,34 @@ namespace {
 /// The optimised TIN and what it came from.
 struct Labelled {
   Tin delaunay;
+  std::uint32_t delaunay_order = 0;  ///< largest order of its triangles
   std::vector<Quadrilateral> quadrilaterals;
   OptimizeOptions options;
   OptimizeResult result;
   Tin tin;
   std::vector<std::array<VertexId, 2>> new_diagonals;
 };
+
+// Under Std constraint edges give the constrained Delaunay triangulation an order of its own, and up to 1 no
+// triangulation has a lower one: what is asked for may not exist.
+std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labelling, Progress& progress) {
+  if (labelling.definition != OrderDefinition::Std) return 0;
+  const TinOrders orders =
+      find_tin_orders(terrain.ground, {.definition = OrderDefinition::Std, .mode = terrain.mode}, progress);
+  if (orders.max_order <= labelling.order) return orders.max_order;
+  const auto worst = std::max_element(orders.orders.begin(), orders.orders.end()) - orders.orders.begin();
+  const Triangle& t = terrain.ground.triangle(TriangleId{static_cast<std::size_t>(worst)});
+  std::string corners;
+  for (const VertexId v : t) {
+    const Point2 p = terrain.written.empty() ? terrain.ground.point(v) : terrain.written[v.index()];
+    corners += (corners.empty() ? "(" : ", (") + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+  }
+  throw Error(ErrorCode::Unsupported,
+              "no triangulation with these lines has order at most " + std::to_string(labelling.order) +
+                  " under std: the constrained Delaunay triangulation has order " +
+                  std::to_string(orders.max_order) + ", at triangle " + corners +
+                  "; take a definition that knows of lines, such as pathcon or sees-opp");
+}
 
 // Takes the ground out of the terrain.
 Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
@@ -216,6 +239,7 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
   seconds.triangulate += run.watch.lap();
 
   progress.start_phase("orders");
+  labelled.delaunay_order = delaunay_order(terrain, run.labelling, progress);
   if (run.labelling.order > 0) {
     labelled.quadrilaterals = on_surface(
         find_quadrilaterals(terrain.ground, {.definition = run.labelling.definition, .mode = terrain.mode},
@@ -252,7 +276,7 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   tin.dropped_rim_triangles = report.tin.dropped_rim_triangles;
   tin.vertices_left_out = report.tin.vertices_left_out;
   tin.angle_histogram_delaunay = measure(labelled.delaunay, run.plane.scale()).angle_histogram;
-  tin.max_order = labelled.new_diagonals.empty() ? 0 : 1;
+  tin.max_order = std::max<unsigned>(labelled.delaunay_order, labelled.new_diagonals.empty() ? 0 : 1);
   report.tin = tin;
   report.crs = describe_plane(run.plane, run.crs);
   report.digest = digest_of(labelled.tin, terrain.written);
