@@ -50,6 +50,8 @@ class OrderWorkspace {
 /// at most 1 under SeesVtx exactly if under SeesTriang, under SeesOpp exactly if under ConfEdge (Lemmas 5 and
 /// 6). Exact for any input: the disc is never perturbed, a vertex on its rim belongs to it by the rule of
 /// in_circle_perturbed.
+/// Not laws, against the paper's Observation 1 and Lemma 2: Property 4 fails for ConfEdge as for Pathcon;
+/// Sees3vtx and EmptyQuad are equal in simple polygons only (scenes property-4-conf-edge, lemma-2-hole).
 /// Thread-safe: queries only read the ground; each thread brings its own workspace. The ground must outlive
 /// this.
 ///
