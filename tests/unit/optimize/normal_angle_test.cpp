@@ -1,5 +1,4 @@
 #include "optimize/face.hpp"
-
 #include "support/meshes.hpp"
 
 #include <gtest/gtest.h>
