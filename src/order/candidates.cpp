@@ -65,7 +65,7 @@ class Finder {
     number_edges();
     if (drop_dead_ends()) number_edges();
     find_crossings();
-    find_faces();
+    cut_into_faces(found_);
     return std::move(found_);
   }
 
@@ -73,7 +73,6 @@ class Finder {
   void number_edges();
   bool drop_dead_ends();
   void find_crossings();
-  void find_faces();
   template <class Visit>
   void follow(const CandidateEdge& edge, const Visit& visit) const;
   [[nodiscard]] bool cross(std::uint32_t e, std::uint32_t f) const;
@@ -245,34 +244,6 @@ void Finder::find_crossings() {
   });
   Pairs all_crossed = joined(crossed);
   found_.crossings = rows_of(all_crossed, edges);
-  for (std::size_t e = 0; e < edges; ++e) found_.edges[e].free = !found_.crossings.row(e).empty();
-}
-
-void Finder::find_faces() {
-  const auto edges = static_cast<std::uint32_t>(found_.edges.size());
-  UnionFind same(edges);
-  for (std::uint32_t e = 0; e < edges; ++e) {
-    for (const std::uint32_t f : found_.crossings.row(e)) same.unite(e, f);
-  }
-  std::vector<std::uint32_t> some_free(found_.triangles.size(), kNone);
-  for (std::size_t t = 0; t < found_.triangles.size(); ++t) {
-    for (const std::uint32_t side : found_.sides[t]) {
-      const std::uint32_t e = side / 2;
-      if (!found_.edges[e].free) continue;
-      if (some_free[t] != kNone) same.unite(e, some_free[t]);
-      some_free[t] = e;
-    }
-  }
-  std::vector<std::uint32_t> face_of(edges, kNone);
-  std::uint32_t count = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
-  for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
-    if (some_free[t] == kNone) continue;
-    std::uint32_t& face = face_of[same.find(some_free[t])];
-    if (face == kNone) face = count++;
-    members.emplace_back(face, t);
-  }
-  found_.faces = rows_of(members, count);
 }
 
 }  // namespace
@@ -280,6 +251,48 @@ void Finder::find_faces() {
 Candidates find_candidates(const Tin& ground, std::vector<OrderTriangle> triangles,
                            const Progress& progress) {
   return Finder(ground, std::move(triangles), progress).find();
+}
+
+void cut_into_faces(Candidates& found) {
+  const auto edges = static_cast<std::uint32_t>(found.edges.size());
+  for (std::uint32_t e = 0; e < edges; ++e) found.edges[e].free = !found.crossings.row(e).empty();
+  UnionFind same(edges);
+  for (std::uint32_t e = 0; e < edges; ++e) {
+    for (const std::uint32_t f : found.crossings.row(e)) same.unite(e, f);
+  }
+  std::vector<std::uint32_t> some_free(found.triangles.size(), kNone);
+  for (std::size_t t = 0; t < found.triangles.size(); ++t) {
+    for (const std::uint32_t side : found.sides[t]) {
+      const std::uint32_t e = side / 2;
+      if (!found.edges[e].free) continue;
+      if (some_free[t] != kNone) same.unite(e, some_free[t]);
+      some_free[t] = e;
+    }
+  }
+  std::vector<std::uint32_t> face_of(edges, kNone);
+  std::uint32_t count = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
+  for (std::uint32_t t = 0; t < found.triangles.size(); ++t) {
+    if (some_free[t] == kNone) continue;
+    std::uint32_t& face = face_of[same.find(some_free[t])];
+    if (face == kNone) face = count++;
+    members.emplace_back(face, t);
+  }
+  found.faces = rows_of(members, count);
+}
+
+bool cover_ground(const Candidates& candidates, const Tin& ground) {
+  std::vector<bool> there(ground.halfedge_count(), false);
+  for (const CandidateEdge& edge : candidates.edges) {
+    if (!edge.ground.valid()) continue;
+    there[edge.ground.index()] = true;
+    if (!ground.on_rim(edge.ground)) there[ground.twin(edge.ground).index()] = true;
+  }
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    const HalfedgeId h{i};
+    if (!there[i] && (ground.on_rim(h) || ground.constrained(h))) return false;
+  }
+  return true;
 }
 
 }  // namespace thalweg::detail

@@ -21,11 +21,7 @@ namespace {
 
 using Front = std::vector<std::uint32_t>;  // directed edges, ascending
 
-struct Arc {
-  std::uint32_t from = 0;
-  std::uint32_t to = 0;
-  std::uint32_t triangle = 0;  // index in the face
-};
+using Arc = FrontGraph::Arc;
 
 class FaceSearch {
  public:
@@ -37,12 +33,12 @@ class FaceSearch {
     std::sort(on_side_.begin(), on_side_.end());
   }
 
-  std::optional<FaceOrders> run(std::size_t work_limit);
+  [[nodiscard]] std::optional<FrontGraph> find_fronts(std::size_t work_limit) const;
+  [[nodiscard]] FaceOrders sweep(const FrontGraph& graph) const;
 
  private:
   [[nodiscard]] Front first_front() const;
   [[nodiscard]] std::optional<Front> cover(const Front& front, std::uint32_t triangle) const;
-  [[nodiscard]] FaceOrders sweep(std::size_t fronts, std::uint32_t last, const std::vector<Arc>& arcs) const;
   [[nodiscard]] std::uint32_t order(std::uint32_t i) const {
     return candidates_.triangles[triangles_[i]].order;
   }
@@ -81,7 +77,7 @@ std::optional<Front> FaceSearch::cover(const Front& front, std::uint32_t triangl
   return next;
 }
 
-std::optional<FaceOrders> FaceSearch::run(std::size_t work_limit) {
+std::optional<FrontGraph> FaceSearch::find_fronts(std::size_t work_limit) const {
   std::map<Front, std::uint32_t> number;
   std::vector<const Front*> fronts;
   std::vector<Arc> arcs;
@@ -107,17 +103,17 @@ std::optional<FaceOrders> FaceSearch::run(std::size_t work_limit) {
       }
     }
   }
-  const auto last = number.find(Front());
-  if (last == number.end())
-    return FaceOrders{FaceOrders::kUnreachable, Front(triangles_.size(), FaceOrders::kUnreachable)};
-  return sweep(fronts.size(), last->second, arcs);
+  FrontGraph graph{static_cast<std::uint32_t>(fronts.size()), std::nullopt, std::move(arcs)};
+  if (const auto last = number.find(Front()); last != number.end()) graph.empty_front = last->second;
+  return graph;
 }
 
-FaceOrders FaceSearch::sweep(std::size_t fronts, std::uint32_t last, const std::vector<Arc>& arcs) const {
+FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {
   constexpr std::uint32_t kUnreachable = FaceOrders::kUnreachable;
-  std::vector<std::uint32_t> before(fronts, kUnreachable), behind(fronts, kUnreachable);
+  const std::vector<Arc>& arcs = graph.arcs;
+  std::vector<std::uint32_t> before(graph.front_count, kUnreachable), behind(graph.front_count, kUnreachable);
   before[0] = 0;
-  behind[last] = 0;
+  if (graph.empty_front) behind[*graph.empty_front] = 0;
   for (const Arc& arc : arcs) {
     before[arc.to] = std::min(before[arc.to], std::max(before[arc.from], order(arc.triangle)));
   }
@@ -134,9 +130,17 @@ FaceOrders FaceSearch::sweep(std::size_t fronts, std::uint32_t last, const std::
 
 }  // namespace
 
+std::optional<FrontGraph> find_fronts(const Candidates& candidates, std::size_t face,
+                                      std::size_t work_limit) {
+  return FaceSearch(candidates, face).find_fronts(work_limit);
+}
+
 std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
                                       std::size_t work_limit) {
-  return FaceSearch(candidates, face).run(work_limit);
+  const FaceSearch search(candidates, face);
+  const auto graph = search.find_fronts(work_limit);
+  if (!graph) return std::nullopt;
+  return search.sweep(*graph);
 }
 
 }  // namespace thalweg::detail

@@ -19,6 +19,22 @@ struct FaceOrders {
   std::vector<std::uint32_t> with_triangle;  ///< as the face's triangles
 };
 
+/// The triangulations of a face as the paths of a graph without cycles, from front 0 to the empty front; each
+/// once. Arcs ascend by `from`, and lead to higher numbers.
+struct FrontGraph {
+  struct Arc {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    std::uint32_t triangle = 0;  ///< index in the face
+  };
+  std::uint32_t front_count = 0;
+  std::optional<std::uint32_t> empty_front;  ///< none: the face has no triangulation
+  std::vector<Arc> arcs;
+};
+
+/// None if the fronts that come up have more than `work_limit` edges together.
+std::optional<FrontGraph> find_fronts(const Candidates& candidates, std::size_t face, std::size_t work_limit);
+
 /// None if the fronts that come up have more than `work_limit` edges together: a count, so the answer is the
 /// same everywhere.
 std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face, std::size_t work_limit);

@@ -39,12 +39,10 @@ class UsefulSearch {
   std::vector<UsefulEdge> run(std::vector<OrderTriangle> triangles);
 
  private:
-  [[nodiscard]] bool covers_ground() const;
   [[nodiscard]] bool greedy_decides() const;
   void search(std::size_t face);
   void ask_greedy(std::size_t face);
-  [[nodiscard]] std::uint32_t greedy_order(const detail::CandidateEdge& edge,
-                                           OrderWorkspace& workspace) const;
+  [[nodiscard]] std::uint32_t greedy_order(const CandidateEdge& edge, OrderWorkspace& workspace) const;
   [[nodiscard]] std::uint32_t least_order_everywhere() const;
 
   const ConstrainedOrder& order_;
@@ -55,22 +53,6 @@ class UsefulSearch {
   std::vector<std::uint32_t> of_face_;  ///< any triangulation of it
   tbb::enumerable_thread_specific<OrderWorkspace> workspaces_;
 };
-
-// Every rim edge and constraint edge has candidates: else there is no triangulation at all.
-bool UsefulSearch::covers_ground() const {
-  const Tin& ground = order_.ground();
-  std::vector<bool> there(ground.halfedge_count(), false);
-  for (const detail::CandidateEdge& edge : candidates_.edges) {
-    if (!edge.ground.valid()) continue;
-    there[edge.ground.index()] = true;
-    if (!ground.on_rim(edge.ground)) there[ground.twin(edge.ground).index()] = true;
-  }
-  for (std::size_t i = 0; i < there.size(); ++i) {
-    const HalfedgeId h{i};
-    if (!there[i] && (ground.on_rim(h) || ground.constrained(h))) return false;
-  }
-  return true;
-}
 
 bool UsefulSearch::greedy_decides() const {
   switch (options_.definition) {
@@ -99,7 +81,7 @@ void UsefulSearch::search(std::size_t face) {
   }
 }
 
-std::uint32_t UsefulSearch::greedy_order(const detail::CandidateEdge& edge, OrderWorkspace& workspace) const {
+std::uint32_t UsefulSearch::greedy_order(const CandidateEdge& edge, OrderWorkspace& workspace) const {
   std::uint32_t largest = 0;
   for (const Triangle& t : greedy_patch(order_.ground(), edge.a, edge.b).triangles) {
     const auto order = order_.order_up_to(t, options_.definition, options_.max_order, workspace);
@@ -147,7 +129,7 @@ std::uint32_t UsefulSearch::least_order_everywhere() const {
 
 std::vector<UsefulEdge> UsefulSearch::run(std::vector<OrderTriangle> triangles) {
   candidates_ = detail::find_candidates(order_.ground(), std::move(triangles), progress_);
-  if (!covers_ground()) return {};
+  if (!detail::cover_ground(candidates_, order_.ground())) return {};
   of_edge_.assign(candidates_.edges.size(), kUnreachable);
   of_face_.assign(candidates_.faces.size(), 0);
   for_each_block(candidates_.faces.size(), 64, progress_, [&](std::size_t begin, std::size_t end) {
@@ -157,7 +139,7 @@ std::vector<UsefulEdge> UsefulSearch::run(std::vector<OrderTriangle> triangles) 
   std::vector<UsefulEdge> useful;
   if (everywhere == kUnreachable) return useful;
   for (std::size_t e = 0; e < of_edge_.size(); ++e) {
-    const detail::CandidateEdge& edge = candidates_.edges[e];
+    const CandidateEdge& edge = candidates_.edges[e];
     const std::uint32_t order = edge.free ? of_edge_[e] : 0;
     if (order == kUnreachable) continue;
     if (order == kUnknown || everywhere == kUnknown) {
