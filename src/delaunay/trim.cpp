@@ -143,4 +143,30 @@ std::vector<bool> drop_outside_triangles(const Tin& tin, const std::function<boo
   return keep;
 }
 
+std::vector<bool> inside_outline(const Tin& tin, std::span<const std::pair<VertexId, VertexId>> outline) {
+  std::vector<bool> wall(tin.halfedge_count(), false);
+  std::vector<TriangleId> queue;
+  std::vector<bool> inside(tin.triangle_count(), false);
+  const auto enter = [&](TriangleId t) {
+    if (inside[t.index()]) return;
+    inside[t.index()] = true;
+    queue.push_back(t);
+  };
+  for (const auto& [a, b] : outline) {
+    const HalfedgeId h = tin.find_halfedge(a, b);
+    if (!h.valid()) continue;
+    wall[h.index()] = true;
+    enter(Tin::triangle_of(h));
+  }
+  while (!queue.empty()) {
+    const TriangleId t = queue.back();
+    queue.pop_back();
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (!tin.on_rim(h) && !wall[h.index()]) enter(Tin::triangle_of(tin.twin(h)));
+    }
+  }
+  return inside;
+}
+
 }  // namespace thalweg

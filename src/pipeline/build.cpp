@@ -8,20 +8,19 @@
 //    triangles that are flat or turned over as written. Vertices that lose all triangles are out; the ground
 //    is then that of the vertices that stay. (Every triangle that stays is constrained Delaunay among fewer
 //    vertices too, so it is a triangle of the new ground.)
-// 5. Optimise and write (surface.cpp).
+// 5. If asked for, leave out the vertices that few others stand for (reduce_terrain.cpp).
+// 6. Optimise and write (surface.cpp).
 #include "pipeline/plane_survey.hpp"
+#include "pipeline/reduce_terrain.hpp"
 #include "pipeline/surface.hpp"
 
 #include <thalweg/base/error.hpp>
-#include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/delaunay/trim.hpp>
 #include <thalweg/pipeline/build.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,75 +38,6 @@ std::vector<std::uint8_t> sources_of(const Ground& ground) {
   std::transform(ground.origins.begin(), ground.origins.end(), sources.begin(),
                  [](const VertexOrigin& origin) { return static_cast<std::uint8_t>(origin.kind); });
   return sources;
-}
-
-/// The ranks of some numbers below `limit`, all different.
-std::vector<VertexId> ranks_of(std::span<const VertexId> numbers, std::size_t limit) {
-  std::vector<std::uint32_t> rank(limit, 0);
-  for (const VertexId number : numbers) rank[number.index()] = 1;
-  std::exclusive_scan(rank.begin(), rank.end(), rank.begin(), 0U);
-  std::vector<VertexId> ranks;
-  ranks.reserve(numbers.size());
-  for (const VertexId number : numbers) ranks.emplace_back(rank[number.index()]);
-  return ranks;
-}
-
-/// The terrain of the vertices that are in a kept triangle; ids close up in order.
-Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
-  const Tin& ground = terrain.ground;
-  std::vector<bool> used(ground.vertex_count(), false);
-  for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
-    if (!terrain.keep[t]) continue;
-    for (const VertexId v : ground.triangle(TriangleId{t})) used[v.index()] = true;
-  }
-  if (std::find(used.begin(), used.end(), false) == used.end()) return terrain;
-
-  std::vector<VertexId> renamed(ground.vertex_count());
-  std::vector<Point2> points;
-  std::vector<double> heights;
-  Terrain result;
-  for (std::size_t v = 0; v < ground.vertex_count(); ++v) {
-    if (!used[v]) continue;
-    renamed[v] = VertexId{points.size()};
-    points.push_back(ground.points()[v]);
-    heights.push_back(ground.heights()[v]);
-    if (!terrain.written.empty()) result.written.push_back(terrain.written[v]);
-    if (!terrain.continuous.empty()) result.continuous.push_back(terrain.continuous[v]);
-    result.vertex_source.push_back(terrain.vertex_source[v]);
-    result.number.push_back(terrain.number[v]);
-  }
-  result.number = ranks_of(result.number, terrain.number.size());
-  std::vector<Triangle> kept;
-  for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
-    if (!terrain.keep[t]) continue;
-    const Triangle& corner = ground.triangle(TriangleId{t});
-    kept.push_back({renamed[corner[0].index()], renamed[corner[1].index()], renamed[corner[2].index()]});
-  }
-  std::vector<ConstraintEdge> constraints;
-  for (const ConstraintEdge& edge : ground.constraint_edges()) {
-    const ConstraintEdge moved{renamed[edge.a.index()], renamed[edge.b.index()], edge.kind};
-    if (moved.a.valid() && moved.b.valid()) constraints.push_back(moved);
-  }
-  result.mode = terrain.mode;
-  if (terrain.mode == GroundMode::Polygon) {
-    result.ground = Tin(std::move(points), std::move(heights), std::move(kept), constraints);
-    result.keep.assign(result.ground.triangle_count(), true);
-    return result;
-  }
-  result.ground = triangulate(std::move(points), std::move(heights), constraints, progress);
-  result.keep.assign(result.ground.triangle_count(), false);
-  std::sort(kept.begin(), kept.end());
-  std::size_t found = 0;
-  for (std::size_t t = 0; t < result.ground.triangle_count() && found < kept.size(); ++t) {
-    if (result.ground.triangle(TriangleId{t}) != kept[found]) continue;
-    result.keep[t] = true;
-    ++found;
-  }
-  if (found < kept.size()) {
-    throw Error(ErrorCode::Internal,
-                "a triangle is lost when vertices outside of the surface are taken away");
-  }
-  return result;
 }
 
 /// Narrows a mask to the triangles that stay when the TIN of those kept so far loses some.
@@ -197,6 +127,12 @@ Report build(const BuildConfig& config, Progress& progress) {
   const std::size_t vertices = terrain.ground.vertex_count();
   terrain = without_lonely_vertices(std::move(terrain), progress);
   report.tin.vertices_left_out = vertices - terrain.ground.vertex_count();
+  report.timings_s.triangulate = watch.lap();
+  if (config.max_error_m || config.max_points) {
+    terrain =
+        simplified(std::move(terrain), {config.max_error_m, config.max_points}, plane, report, progress);
+    report.timings_s.simplify = watch.lap();
+  }
 
   finish_run(std::move(terrain), {plane, read.crs, config.labelling, config.output, outputs, watch}, report,
              progress);

@@ -8,6 +8,7 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/delaunay/trim.hpp>
 #include <thalweg/io/read_tin.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/build.hpp>
@@ -55,32 +56,6 @@ std::vector<std::pair<VertexId, VertexId>> outline_of(const Tin& tin) {
   return outline;
 }
 
-std::vector<bool> inside_of(const Tin& ground, const std::vector<std::pair<VertexId, VertexId>>& outline) {
-  std::vector<bool> wall(ground.halfedge_count(), false);
-  std::vector<TriangleId> queue;
-  std::vector<bool> inside(ground.triangle_count(), false);
-  const auto enter = [&](TriangleId t) {
-    if (inside[t.index()]) return;
-    inside[t.index()] = true;
-    queue.push_back(t);
-  };
-  for (const auto& [a, b] : outline) {
-    const HalfedgeId h = ground.find_halfedge(a, b);
-    if (!h.valid()) continue;
-    wall[h.index()] = true;
-    enter(Tin::triangle_of(h));
-  }
-  while (!queue.empty()) {
-    const TriangleId t = queue.back();
-    queue.pop_back();
-    for (std::size_t side = 0; side < 3; ++side) {
-      const HalfedgeId h = Tin::halfedge(t, side);
-      if (!ground.on_rim(h) && !wall[h.index()]) enter(Tin::triangle_of(ground.twin(h)));
-    }
-  }
-  return inside;
-}
-
 Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points, Progress& progress) {
   const Tin given(plane_points, file.heights, file.triangles, file.constraints);
   if (const auto violations = validate(given, {}); !violations.empty()) {
@@ -101,7 +76,7 @@ Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points,
   if (constraints.size() > before) {
     terrain.ground = triangulate(std::move(plane_points), file.heights, constraints, progress);
   }
-  terrain.keep = inside_of(terrain.ground, outline);
+  terrain.keep = inside_outline(terrain.ground, outline);
   const bool bounded = std::any_of(constraints.begin(), constraints.end(), [](const ConstraintEdge& edge) {
     return has(edge.kind, EdgeKind::Boundary);
   });

@@ -89,6 +89,21 @@ Json criteria_json(const std::vector<ReportCriterion>& criteria) {
   return list;
 }
 
+Json simplification_json(const ReportSimplification& s) {
+  const auto pair = [](const std::array<double, 2>& value) {
+    return Json{{"delaunay", value[0]}, {"result", value[1]}};
+  };
+  return {{"max_error_m", s.max_error_m ? Json(*s.max_error_m) : Json(nullptr)},
+          {"max_points", s.max_points ? Json(*s.max_points) : Json(nullptr)},
+          {"stopped_by", s.stopped_by},
+          {"source_points", s.source_points},
+          {"fixed_vertices", s.fixed_vertices},
+          {"inserted_vertices", s.inserted_vertices},
+          {"barred_diagonals", s.barred_diagonals},
+          {"largest_error_m", pair(s.largest_error_m)},
+          {"rms_error_m", pair(s.rms_error_m)}};
+}
+
 Json pits_json(const ReportPits& pits) {
   return {{"interior", pits.interior}, {"boundary", pits.boundary}, {"lake", pits.lake}};
 }
@@ -112,6 +127,7 @@ std::string to_json(const Report& report) {
         {"horizontal_metres_per_unit", report.crs.horizontal_metres_per_unit},
         {"vertical_metres_per_unit", report.crs.vertical_metres_per_unit}}},
       {"tin", tin_json(report.tin)},
+      {"simplification", report.simplification ? simplification_json(*report.simplification) : Json(nullptr)},
       {"first_order",
        {{"definition", report.first_order.definition},
         {"quadrilaterals", report.first_order.quadrilaterals},
@@ -126,6 +142,7 @@ std::string to_json(const Report& report) {
       {"timings_s",
        {{"read", s.read},
         {"triangulate", s.triangulate},
+        {"simplify", s.simplify},
         {"orders", s.orders},
         {"optimize", s.optimize},
         {"check", s.check},
@@ -167,6 +184,17 @@ void add_rows(std::string& text, const Report& r) {
   row("area, m2", fmt::format("{:.1f}", r.tin.area_m2));
   row("smallest angle, degrees", fmt::format("{:.3f}", r.tin.min_angle_deg));
   count("flat triangles", r.tin.flat_triangles);
+  if (r.simplification) {
+    const ReportSimplification& s = *r.simplification;
+    text += "Simplification\n";
+    row("stopped by", s.stopped_by);
+    count("source points", s.source_points);
+    count("vertices of lines, outline", s.fixed_vertices);
+    count("vertices inserted", s.inserted_vertices);
+    count("diagonals barred", s.barred_diagonals);
+    row("largest error, m", fmt::format("{:.4f}", s.largest_error_m[1]));
+    row("rms error, m", fmt::format("{:.4f}", s.rms_error_m[1]));
+  }
   if (r.first_order.definition.empty()) return;
   text += "First-order structure\n";
   row("definition", r.first_order.definition);
@@ -197,11 +225,11 @@ std::string to_text(const Report& r) {
                  r.pits_result.boundary);
   const PhaseSeconds& s = r.timings_s;
   text += "Seconds\n";
-  fmt::format_to(
-      out,
-      "  read {:.2f}  triangulate {:.2f}  orders {:.2f}  optimize {:.2f}  check {:.2f}  write {:.2f}"
-      "  total {:.2f}\n",
-      s.read, s.triangulate, s.orders, s.optimize, s.check, s.write, s.total);
+  fmt::format_to(out,
+                 "  read {:.2f}  triangulate {:.2f}  simplify {:.2f}  orders {:.2f}  optimize {:.2f}  check "
+                 "{:.2f}  write {:.2f}"
+                 "  total {:.2f}\n",
+                 s.read, s.triangulate, s.simplify, s.orders, s.optimize, s.check, s.write, s.total);
   fmt::format_to(out, "  peak memory {:.0f} MiB\n", static_cast<double>(r.peak_memory_bytes) / 0x1p20);
   for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", note);
   return text;

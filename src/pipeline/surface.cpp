@@ -205,6 +205,7 @@ struct Labelled {
   OptimizeResult result;
   Tin tin;
   std::vector<std::array<VertexId, 2>> new_diagonals;
+  std::size_t barred = 0;  ///< quadrilaterals whose other diagonal is too far from points left out
 };
 
 // Under Std constraint edges give the constrained Delaunay triangulation an order of its own, and up to 1 no
@@ -245,6 +246,9 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
         find_quadrilaterals(terrain.ground, {.definition = run.labelling.definition, .mode = terrain.mode},
                             progress),
         terrain);
+    labelled.barred = labelled.quadrilaterals.size();
+    bar_diagonals(terrain.ground, terrain.left_out, terrain.error_limit, labelled.quadrilaterals, progress);
+    labelled.barred -= labelled.quadrilaterals.size();
   }
   labelled.delaunay = keep_triangles(std::move(terrain.ground), terrain.keep);
   progress.advance(1);
@@ -281,6 +285,15 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   report.crs = describe_plane(run.plane, run.crs);
   report.digest = digest_of(labelled.tin, terrain.written);
   report.first_order = describe_structure(labelled.result, run.labelling);
+  if (report.simplification) {
+    const double unit = run.plane.vertical_metres_per_unit();
+    const SourceError delaunay = measure_error(labelled.delaunay, terrain.left_out);
+    const SourceError result =
+        measure_error(labelled.tin, relocated(terrain.left_out, labelled.delaunay, labelled.tin));
+    report.simplification->barred_diagonals = labelled.barred;
+    report.simplification->largest_error_m = {delaunay.largest * unit, result.largest * unit};
+    report.simplification->rms_error_m = {delaunay.rms * unit, result.rms * unit};
+  }
   report.criteria = describe_criteria(labelled.result);
 }
 

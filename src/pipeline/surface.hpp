@@ -9,6 +9,7 @@
 #include <thalweg/order/quadrilaterals.hpp>
 #include <thalweg/pipeline/build.hpp>
 #include <thalweg/terrain/pits.hpp>
+#include <thalweg/terrain/source_error.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -46,6 +47,8 @@ struct Terrain {
   std::vector<Point2> continuous;           ///< the same without a jump at the antimeridian, to check them
   std::vector<std::uint8_t> vertex_source;  ///< per vertex: 0 point, 1 line vertex, 2 crossing
   std::vector<VertexId> number;             ///< per vertex its id in the outputs; empty: the same
+  LeftOutPoints left_out;                   ///< of a simplified terrain, in triangles of the ground
+  double error_limit = 0;                   ///< no diagonal may leave one farther off; units of height
 };
 
 /// What a run works with from the ground on.

@@ -59,6 +59,7 @@ verify::Claims read_claims(const Json& report) {
   claims.edges = read<std::size_t>(report, "/tin/edges");
   claims.constraint_edges = read<std::size_t>(report, "/tin/constraint_edges");
   claims.quadrilaterals = read<std::size_t>(report, "/first_order/quadrilaterals");
+  claims.barred = read<std::size_t>(report, "/simplification/barred_diagonals").value_or(0);
   claims.flipped = read<std::size_t>(report, "/first_order/flipped");
   for (const Json& c : report.value("criteria", Json::array())) {
     claims.criteria.push_back({.name = c.at("name").get<std::string>(),

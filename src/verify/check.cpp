@@ -175,7 +175,10 @@ class Checker {
     if (subject_.order == 1 && orders_known()) {
       const PlainOrders orders(delaunay_, subject_.definition, polygon());
       quadrilaterals_ = find_quadrilaterals(delaunay_, orders, progress_);
-      table_.add_count("first-order quadrilaterals", claims_.quadrilaterals, quadrilaterals_.size());
+      table_.add_count(
+          "first-order quadrilaterals, barred ones included",
+          claims_.quadrilaterals ? std::optional(*claims_.quadrilaterals + claims_.barred) : std::nullopt,
+          quadrilaterals_.size());
     } else if (claims_.quadrilaterals && subject_.order > 0) {
       table_.add("first-order quadrilaterals", Verdict::NotChecked);
     }
@@ -229,6 +232,12 @@ class Checker {
 
   void check_optima() {
     progress_.start_phase("optima");
+    if (claims_.barred > 0) {
+      table_.add(
+          "bounds, optimality", Verdict::NotChecked,
+          fmt::format("{} diagonals are barred by source points, which are not at hand", claims_.barred));
+      return;
+    }
     for (Finding& finding :
          check_bounds({.delaunay = delaunay_,
          .quadrilaterals = quadrilaterals_,

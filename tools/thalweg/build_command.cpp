@@ -23,6 +23,8 @@ struct BuildArguments {
   LabellingArguments labelling;
   Common common;
   double max_edge = 0;
+  double max_error = 0;
+  std::size_t max_points = 0;
 };
 
 void add_ground_options(CLI::App& command, BuildArguments& a) {
@@ -40,7 +42,18 @@ void add_ground_options(CLI::App& command, BuildArguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
-void run_build(BuildArguments& a) {
+void add_simplify_options(CLI::App& command, BuildArguments& a) {
+  command
+      .add_option("--max-error", a.max_error,
+                  "simplify: fewest vertices from which no source point is vertically farther, metres")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--max-points", a.max_points,
+                  "simplify: number of vertices, lines and outline included; the first limit reached stops")
+      ->check(CLI::Range(3U, 0xfffffffeU));
+}
+
+void run_build(const CLI::App& command, BuildArguments& a) {
   if (a.files.size() < 2) {
     throw Error(ErrorCode::Usage,
                 "build takes sources of points first and the output last; only one name was given");
@@ -50,6 +63,8 @@ void run_build(BuildArguments& a) {
   for (std::size_t i = 0; i + 1 < a.files.size(); ++i) config.points.push_back(parse_source(a.files[i]));
   apply_sources(a.sources, config.read, config.lines);
   if (a.max_edge > 0) config.max_edge_m = a.max_edge;
+  if (command.count("--max-error") > 0) config.max_error_m = a.max_error;
+  if (command.count("--max-points") > 0) config.max_points = a.max_points;
   config.labelling = parse_labelling(a.labelling);
   const Report report = build(config, progress_of(a.common));
   print_report(report, a.common, config.output);
@@ -68,10 +83,11 @@ void add_build_command(CLI::App& app) {
   add_source_options(*command, arguments->sources, arguments->config.read);
   add_crossing_option(*command, arguments->config.ground);
   add_ground_options(*command, *arguments);
+  add_simplify_options(*command, *arguments);
   add_labelling_options(*command, arguments->labelling);
   add_output_options(*command, arguments->config.output);
   add_common_options(*command, arguments->common);
-  command->callback([arguments] { run_build(*arguments); });
+  command->callback([arguments, command] { run_build(*command, *arguments); });
 }
 
 }  // namespace thalweg::cli

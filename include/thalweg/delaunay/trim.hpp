@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
@@ -29,5 +30,9 @@ std::vector<bool> drop_turned_rim_triangles(const Tin& tin, std::span<const Poin
 /// Drops the triangles of which `outside` is true, wherever they are; law (2) does not hold here: a
 /// constraint edge between two of them goes with them.
 std::vector<bool> drop_outside_triangles(const Tin& tin, const std::function<bool(TriangleId)>& outside);
+
+/// For each triangle whether it lies inside of an outline: directed edges, the inside to their left, of which
+/// those that are edges of the TIN count. Complexity: linear.
+std::vector<bool> inside_outline(const Tin& tin, std::span<const std::pair<VertexId, VertexId>> outline);
 
 }  // namespace thalweg

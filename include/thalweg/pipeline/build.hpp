@@ -9,6 +9,7 @@
 #include <thalweg/order/definition.hpp>
 #include <thalweg/pipeline/report.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,6 +43,11 @@ struct BuildConfig {
   GroundOptions ground;              ///< its `snap` is set from snap_m
   double snap_m = 0;                 ///< metres in the metric plane
   std::optional<double> max_edge_m;  ///< metres in the metric plane
+  /// Simplification: largest vertical distance of the final TIN from any source point, metres (but where a
+  /// line's height or another point's replaces it: those are conflicts), and a number of vertices; the first
+  /// limit reached stops. No diagonal is taken that would break the bound.
+  std::optional<double> max_error_m;
+  std::optional<std::size_t> max_points;
   LabellingConfig labelling;
   OutputConfig output;
 };

@@ -16,6 +16,7 @@ namespace thalweg {
 struct PhaseSeconds {
   double read = 0;
   double triangulate = 0;
+  double simplify = 0;
   double orders = 0;
   double optimize = 0;
   double check = 0;  ///< the TIN's laws, pits and figures, by plain code
@@ -89,6 +90,19 @@ struct ReportPits {
   std::size_t lake = 0;
 };
 
+/// Of a run with --max-error or --max-points. Pairs: the Delaunay TIN, the result.
+struct ReportSimplification {
+  std::optional<double> max_error_m;
+  std::optional<std::size_t> max_points;
+  std::string stopped_by;             ///< "max-error", "max-points", "exact" (no error is left)
+  std::size_t source_points = 0;      ///< vertices before
+  std::size_t fixed_vertices = 0;     ///< vertices of lines and of the outline, which stay
+  std::size_t inserted_vertices = 0;  ///< the others that the TIN has
+  std::size_t barred_diagonals = 0;   ///< quadrilaterals that keep theirs for the error's sake
+  std::array<double, 2> largest_error_m{};
+  std::array<double, 2> rms_error_m{};  ///< over all source points
+};
+
 struct Report {
   std::string command;
   std::string digest;  ///< see `digest_of`
@@ -96,6 +110,7 @@ struct Report {
   std::vector<Conflict> conflicts;
   ReportCrs crs;
   ReportTin tin;
+  std::optional<ReportSimplification> simplification;
   ReportFirstOrder first_order;
   std::vector<ReportCriterion> criteria;
   ReportPits pits_delaunay;

@@ -38,6 +38,8 @@ struct Claims {
   std::optional<std::string> digest;
   std::optional<std::size_t> vertices, triangles, edges, constraint_edges;
   std::optional<std::size_t> quadrilaterals, flipped;
+  /// First-order quadrilaterals that were kept out for the sake of source points; not in `quadrilaterals`.
+  std::size_t barred = 0;
   std::vector<CriterionClaim> criteria;
   std::optional<PitsClaim> pits_delaunay, pits_result;
 };
