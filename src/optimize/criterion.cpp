@@ -108,6 +108,14 @@ double smallest_angle(const Face& face, Scale scale) {
   return *std::min_element(angles.begin(), angles.end());
 }
 
+/// Sum of squares of the vertical distances, in metres, between the triangle and the reference's points that
+/// it owns (reference.hpp): each point on the surface counts once.
+double vertical_squares(const Face& face, Scale scale, const Reference& reference) {
+  const auto& [a, b, c] = face.corner;
+  return reference.squares({a.at, b.at, c.at}, {a.height, b.height, c.height}) * scale.vertical *
+         scale.vertical;
+}
+
 constexpr auto kMinimise = Direction::Minimise;
 constexpr auto kMaximise = Direction::Maximise;
 
@@ -157,6 +165,11 @@ constexpr std::array kDeclarations = {
     Declaration{
         {Criterion::MinAngle, "min-angle", "degrees", kMaximise, Coupling::OneTriangle, Combination::Min},
         smallest_angle},
+    Declaration{{Criterion::VerticalError, "vertical-error", "square metres", kMinimise,
+                 Coupling::OneTriangle, Combination::Sum},
+                nullptr,
+                nullptr,
+                vertical_squares},
 };
 
 constexpr auto kTraits = [] {
@@ -209,6 +222,12 @@ std::optional<Criterion> find_criterion(std::string_view name) {
 bool Objective::is_extreme() const {
   const Combination combination = traits_of(parts.front().criterion).combination;
   return !is_weighted && (combination == Combination::Max || combination == Combination::Min);
+}
+
+bool Objective::needs_reference() const {
+  return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+    return declaration_of(part.criterion).against_reference != nullptr;
+  });
 }
 
 std::string Objective::name() const {

@@ -20,6 +20,11 @@ void check(const Tin& tin, const OptimizeOptions& options) {
     if (std::find(options.criteria.begin(), here, *here) == here) continue;
     throw Error(ErrorCode::Usage, "criterion " + here->name() + " is given twice; name each once");
   }
+  for (const Objective& objective : options.criteria) {
+    if (!objective.needs_reference() || options.reference != nullptr) continue;
+    throw Error(ErrorCode::Usage,
+                "criterion " + objective.name() + " is measured against a reference; give --reference");
+  }
   for (const double metres : {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}) {
     if (metres > 0 && std::isfinite(metres)) continue;
     throw Error(ErrorCode::Usage, "metres per unit must be positive, but are " + std::to_string(metres));
@@ -64,7 +69,7 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   problem.owner = quadrilaterals_of_triangles(tin, quadrilaterals);
   const std::vector<std::uint32_t>& owner = problem.owner;
   const Scale scale{options.horizontal_metres_per_unit, options.vertical_metres_per_unit};
-  const TermScan scan(tin, quadrilaterals, owner, scale);
+  const TermScan scan(tin, quadrilaterals, owner, scale, options.reference);
   Labelling<Criteria>& labelling = problem.labelling;
   labelling.unary.resize(quadrilaterals.size());
   if (!problem.sums.empty()) {

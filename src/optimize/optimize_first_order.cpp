@@ -46,7 +46,7 @@ class Run {
         progress_(progress),
         problem_(begin(tin, quadrilaterals, options, progress)),
         scan_(tin, quadrilaterals, problem_.owner,
-              {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}) {}
+              {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}, options.reference) {}
 
   OptimizeResult run() {
     progress_.start_phase("choose diagonals");

@@ -37,6 +37,18 @@ std::array<Side, 4> sides_of(const Tin& tin, const Quadrilateral& quadrilateral)
       {{Tin::previous(uv), true}, {Tin::next(vu), true}, {Tin::previous(vu), false}, {Tin::next(uv), false}}};
 }
 
+std::uint32_t TermScan::slot(std::uint32_t begin, std::span<const Side> sides, HalfedgeId inner) const {
+  for (const Side& side : sides) {
+    if (side.inner == inner) break;
+    begin += owner_across(side.inner) != kNone ? 1 : 0;
+  }
+  return begin;
+}
+
+double TermScan::left_on_rim(const Progress& progress) const {
+  return reference_->squares_left_on_rim(tin_, progress) * scale_.vertical * scale_.vertical;
+}
+
 TermScan::Rows TermScan::lay_out_rows(const Progress& progress) const {
   Rows rows;
   const std::size_t count = quadrilaterals_.size();

@@ -19,8 +19,8 @@ namespace thalweg {
 class TermScan {
  public:
   TermScan(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
-           std::span<const std::uint32_t> owner, Scale scale)
-      : tin_(tin), quadrilaterals_(quadrilaterals), owner_(owner), scale_(scale) {}
+           std::span<const std::uint32_t> owner, Scale scale, const Reference* reference)
+      : tin_(tin), quadrilaterals_(quadrilaterals), owner_(owner), scale_(scale), reference_(reference) {}
 
   /// Rows of neighbours, sides in order, both ways. Complexity: linear, on all threads.
   struct Rows {
@@ -52,16 +52,14 @@ class TermScan {
     const HalfedgeId outer = tin_.twin(h);
     return outer.valid() ? owner_[Tin::triangle_of(outer).index()] : kNone;
   }
-  /// The slot of a side in the row of q.
-  [[nodiscard]] std::uint32_t slot(std::uint32_t begin, const std::array<Side, 4>& sides,
-                                   HalfedgeId inner) const {
-    for (const Side& side : sides) {
-      if (side.inner == inner) break;
-      begin += owner_across(side.inner) != kNone ? 1 : 0;
-    }
-    return begin;
-  }
+  /// The slot of a side in the row of q, which begins there.
+  [[nodiscard]] std::uint32_t slot(std::uint32_t begin, std::span<const Side> sides, HalfedgeId inner) const;
 
+  [[nodiscard]] double left_on_rim(const Progress& progress) const;
+  [[nodiscard]] double of_triangle(const Declaration& declaration, const Face& face) const {
+    return declaration.triangle != nullptr ? declaration.triangle(face, scale_)
+                                           : declaration.against_reference(face, scale_, *reference_);
+  }
   template <class Block>
   void scan_triangle(TriangleId t, const Declaration& declaration, Block& block) const;
   template <class Block>
@@ -72,6 +70,7 @@ class TermScan {
   std::span<const Quadrilateral> quadrilaterals_;
   std::span<const std::uint32_t> owner_;
   Scale scale_;
+  const Reference* reference_;
 };
 
 template <class Sink>
@@ -85,7 +84,7 @@ void TermScan::run(const Declaration& declaration, std::span<const std::uint32_t
       } else {
         const HalfedgeId uv = quadrilaterals_[q].diagonal;
         const auto value = [&](const Face& a, const Face& b) {
-          return std::array{declaration.triangle(a, scale_), declaration.triangle(b, scale_)};
+          return std::array{of_triangle(declaration, a), of_triangle(declaration, b)};
         };
         block.single(q, value(face(uv), face(tin_.twin(uv))),
                      value(flipped_face(q, true), flipped_face(q, false)));
@@ -96,14 +95,15 @@ void TermScan::run(const Declaration& declaration, std::span<const std::uint32_t
     typename Sink::Block block(sink);
     for (std::size_t t = begin; t < end; ++t) scan_triangle(TriangleId{t}, declaration, block);
   });
+  if (declaration.against_reference != nullptr) typename Sink::Block(sink).constant(left_on_rim(progress));
 }
 
 /// Terms of triangles that are in no quadrilateral, and of edges between two such.
 template <class Block>
 void TermScan::scan_triangle(TriangleId t, const Declaration& declaration, Block& block) const {
   if (owner_[t.index()] != kNone) return;
-  if (declaration.triangle != nullptr) {
-    block.constant(declaration.triangle(face(Tin::halfedge(t, 0)), scale_));
+  if (declaration.edge == nullptr) {
+    block.constant(of_triangle(declaration, face(Tin::halfedge(t, 0))));
     return;
   }
   for (std::size_t i = 0; i < 3; ++i) {

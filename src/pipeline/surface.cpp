@@ -11,6 +11,7 @@
 #include "pipeline/surface.hpp"
 
 #include "pipeline/digest.hpp"
+#include "pipeline/reference.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geodesy/area.hpp>
@@ -30,6 +31,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -201,6 +203,7 @@ struct Labelled {
   Tin delaunay;
   std::uint32_t delaunay_order = 0;  ///< largest order of its triangles
   std::vector<Quadrilateral> quadrilaterals;
+  std::unique_ptr<const Reference> reference;
   OptimizeOptions options;
   OptimizeResult result;
   Tin tin;
@@ -259,6 +262,11 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
                       .horizontal_metres_per_unit = run.plane.metres_per_unit(),
                       .vertical_metres_per_unit = run.plane.vertical_metres_per_unit()};
   if (run.labelling.effort) labelled.options.effort = *run.labelling.effort;
+  if (run.labelling.reference) {
+    const ReferencePoints reference = read_reference(*run.labelling.reference, run.crs, run.plane, progress);
+    labelled.reference = std::make_unique<const Reference>(reference.points, reference.heights);
+    labelled.options.reference = labelled.reference.get();
+  }
   labelled.result =
       optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
   std::vector<HalfedgeId> flips;

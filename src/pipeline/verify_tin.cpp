@@ -1,9 +1,12 @@
 // Files and claims for the verifier; nothing is decided here.
 #include "pipeline/plane.hpp"
+#include "pipeline/reference.hpp"
+#include "pipeline/verify_sources.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/read_tin.hpp>
 #include <thalweg/pipeline/verify_tin.hpp>
+#include <thalweg/verify/sources.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,6 +83,38 @@ unsigned order_of(const Json& report) {
   return std::max(order, first_order ? 1U : 0U);
 }
 
+/// What the report says of the sources.
+void read_source_claims(const Json& report, const Plane& plane, verify::Sources& sources) {
+  sources.conflicts.emplace();
+  for (const Json& c : report.value("conflicts", Json::array())) {
+    Conflict conflict;
+    conflict.xy = plane.to_plane(Point2{c.at("x").get<double>(), c.at("y").get<double>()});
+    conflict.z_used = c.at("z_used").get<double>();
+    sources.conflicts->push_back(conflict);
+  }
+  sources.positions_left_out = read<std::size_t>(report, "/input/outside_boundary").value_or(0) +
+                               read<std::size_t>(report, "/tin/vertices_left_out").value_or(0);
+  sources.is_cut = sources.is_cut || read<std::size_t>(report, "/tin/dropped_rim_triangles").value_or(0) > 0;
+}
+
+std::vector<Finding> check_sources_of(const VerifyConfig& config, const TinFile& file, const Plane& plane,
+                                      const std::optional<Json>& report, const verify::Subject& subject,
+                                      Progress& progress) {
+  progress.start_phase("read sources");
+  const ReadResult read_in = read_survey(config.points, config.lines, config.read, progress);
+  const CrsInfo crs = describe_crs(file.crs);
+  if (crs.known && read_in.crs.known && crs.authority != read_in.crs.authority &&
+      crs.name != read_in.crs.name) {
+    throw Error(ErrorCode::BadCrs, "the sources are in " + read_in.crs.name + ", the TIN is in " + crs.name +
+                                       "; give --s-crs, --t-crs or --a-crs as to build");
+  }
+  const double pixel = report ? read<double>(*report, "/input/snapping_pixel").value_or(0) : 0;
+  verify::Sources sources = sources_in_plane(read_in.survey, plane, pixel, progress);
+  sources.snap = config.snap_m / plane.metres_per_unit();
+  if (report) read_source_claims(*report, plane, sources);
+  return verify::check_sources(subject, sources, progress);
+}
+
 std::string_view verdict_name(Verdict verdict) {
   switch (verdict) {
     case Verdict::Holds:
@@ -111,6 +146,8 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
     const std::vector<Point2> points = plane.to_plane(file.points, progress);
     const std::vector<Point2> continuous =
         plane.projected() ? plane.to_lonlat(file.points) : std::vector<Point2>();
+    ReferencePoints reference;
+    if (config.reference) reference = read_reference(*config.reference, crs, plane, progress);
     const verify::Claims claims = report ? read_claims(*report) : verify::Claims();
     verify::Subject subject{.points = points,
                             .written = file.points,
@@ -118,6 +155,8 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
                             .heights = file.heights,
                             .triangles = file.triangles,
                             .constraints = file.constraints,
+                            .reference_points = reference.points,
+                            .reference_heights = reference.heights,
                             .horizontal_metres_per_unit = plane.metres_per_unit(),
                             .vertical_metres_per_unit = plane.vertical_metres_per_unit()};
     if (report) {
@@ -127,7 +166,13 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
     }
     if (config.order) subject.order = *config.order;
     if (config.definition) subject.definition = *config.definition;
-    return {config.input, verify::check(subject, claims, progress)};
+    VerifyResult result{config.input, verify::check(subject, claims, progress)};
+    if (!config.points.empty() || !config.lines.empty()) {
+      std::vector<Finding> more = check_sources_of(config, file, plane, report, subject, progress);
+      result.findings.insert(result.findings.end(), std::make_move_iterator(more.begin()),
+                             std::make_move_iterator(more.end()));
+    }
+    return result;
   } catch (const Json::exception& error) {
     throw Error(ErrorCode::BadFormat,
                 config.report_path + ": a key does not hold what it should: " + error.what());

@@ -92,7 +92,10 @@ std::optional<std::string> find_height_fault(const Subject& subject) {
 class Checker {
  public:
   Checker(const Subject& subject, const Claims& claims, Progress& progress)
-      : subject_(subject), claims_(claims), progress_(progress), mesh_(plain_mesh_of(subject)) {}
+      : subject_(subject), claims_(claims), progress_(progress), mesh_(plain_mesh_of(subject)) {
+    if (!subject.reference_points.empty())
+      reference_.emplace(subject.reference_points, subject.reference_heights);
+  }
 
   std::vector<Finding> run() {
     if (check_mesh()) {
@@ -210,7 +213,7 @@ class Checker {
   void check_values() {
     progress_.start_phase("values");
     for (const CriterionClaim& claim : claims_.criteria) {
-      const auto criterion = plain_criterion(claim.name);
+      const auto criterion = plain_criterion(claim.name, reference());
       if (!criterion) {
         table_.add(claim.name, Verdict::NotChecked, "the verifier has no formula for it, or no reference");
         continue;
@@ -242,6 +245,7 @@ class Checker {
          check_bounds({.delaunay = delaunay_,
          .quadrilaterals = quadrilaterals_,
          .scale = scale(),
+         .reference = reference(),
          .order = subject_.order,
          .structure_known = subject_.order == 0 || (subject_.order == 1 && orders_known())},
                       claims_.criteria, progress_)) {
@@ -249,9 +253,12 @@ class Checker {
     }
   }
 
+  [[nodiscard]] const PlainReference* reference() const { return reference_ ? &*reference_ : nullptr; }
+
   const Subject& subject_;
   const Claims& claims_;
   Progress& progress_;
+  std::optional<PlainReference> reference_;
   PlainMesh mesh_;
   PlainMesh delaunay_;
   std::vector<PlainQuadrilateral> quadrilaterals_;

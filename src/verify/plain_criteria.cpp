@@ -37,7 +37,7 @@ struct Known {
   bool counts;
 };
 
-constexpr std::array<Known, 15> kKnown = {
+constexpr std::array<Known, 16> kKnown = {
     {{"local-minima", Depends::OnPlateau, Combines::Sum, false, true},
      {"normal-angle-sum", Depends::OnEdge, Combines::Sum, false, false},
      {"normal-angle-squares", Depends::OnEdge, Combines::Sum, false, false},
@@ -50,6 +50,7 @@ constexpr std::array<Known, 15> kKnown = {
      {"area-ratio-sum", Depends::OnEdge, Combines::Sum, false, false},
      {"convex-edges", Depends::OnEdge, Combines::Sum, true, true},
      {"flat-triangles", Depends::OnTriangle, Combines::Sum, false, true},
+     {"vertical-error", Depends::OnTriangle, Combines::Sum, false, false},
      {"convex-vertices", Depends::OnVertex, Combines::Sum, true, true},
      {"mixed-vertices", Depends::OnVertex, Combines::Sum, false, true},
      {"max-degree", Depends::OnVertex, Combines::Largest, false, true}}};
@@ -127,8 +128,11 @@ int bend(const PlainMesh& mesh, Index a, Index b, Index l, Index r) {
   return -sum.sign();
 }
 
-Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const std::string& name, Index a, Index b,
-                       Index c) {
+Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion,
+                       const std::string& name, Index a, Index b, Index c) {
+  if (name == "vertical-error") {
+    return criterion.reference->squares(mesh, a, b, c) * scale.vertical * scale.vertical;
+  }
   if (name == "max-area") return doubled_area(mesh, scale, a, b, c) / 2;
   if (name == "flat-triangles") return mesh.z[a] == mesh.z[b] && mesh.z[b] == mesh.z[c] ? 1 : 0;
   const Extended first = corner_angle(mesh, a, b, c), second = corner_angle(mesh, b, c, a),
@@ -225,12 +229,14 @@ Index find(std::vector<Index>& parent, Index v) {
 
 }  // namespace
 
-std::optional<PlainCriterion> plain_criterion(const std::string& name) {
+std::optional<PlainCriterion> plain_criterion(const std::string& name, const PlainReference* reference) {
   PlainCriterion criterion;
+  if (name.find("vertical-error") != std::string::npos && reference == nullptr) return std::nullopt;
   if (const Known* known = find_known(name)) {
-    criterion = {{{1, name}}, known->depends, known->combines, known->maximised, known->counts};
+    criterion = {{{1, name}}, known->depends, known->combines, known->maximised, known->counts, reference};
     return criterion;
   }
+  criterion.reference = reference;
   criterion.counts = false;
   std::size_t at = 0;
   while (at < name.size()) {
@@ -266,7 +272,7 @@ std::int64_t triangle_term(const PlainMesh& mesh, PlainScale scale, const PlainC
   std::int64_t steps = 0;
   for (const PlainCriterion::Part& part : criterion.parts) {
     if (find_known(part.name)->depends != Depends::OnTriangle) continue;
-    steps += to_steps(part.weight * triangle_part(mesh, scale, part.name, a, b, c));
+    steps += to_steps(part.weight * triangle_part(mesh, scale, criterion, part.name, a, b, c));
   }
   return steps;
 }
@@ -277,6 +283,16 @@ std::int64_t edge_term(const PlainMesh& mesh, PlainScale scale, const PlainCrite
   for (const PlainCriterion::Part& part : criterion.parts) {
     if (find_known(part.name)->depends != Depends::OnEdge) continue;
     steps += to_steps(part.weight * edge_part(mesh, scale, part.name, a, b, l, r));
+  }
+  return steps;
+}
+
+std::int64_t constant_term(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion) {
+  std::int64_t steps = 0;
+  for (const PlainCriterion::Part& part : criterion.parts) {
+    if (part.name != "vertical-error") continue;
+    steps +=
+        to_steps(part.weight * criterion.reference->squares_left(mesh) * scale.vertical * scale.vertical);
   }
   return steps;
 }
@@ -308,9 +324,9 @@ PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterio
         static_cast<Extended>(criterion.combines == Combines::Largest ? *most : *least) / kSteps;
     return {value, 2 / kSteps + std::abs(value) * 1e-12L};
   }
-  const Extended sum =
-      std::accumulate(terms.begin(), terms.end(), Extended{0},
-                      [](Extended s, std::int64_t t) { return s + static_cast<Extended>(t); });
+  Extended sum = std::accumulate(terms.begin(), terms.end(), Extended{0},
+                                 [](Extended s, std::int64_t t) { return s + static_cast<Extended>(t); });
+  sum += static_cast<Extended>(constant_term(mesh, scale, criterion));
   const Extended parts = static_cast<Extended>(criterion.parts.size());
   const Extended tolerance = criterion.counts ? 0
                                               : static_cast<Extended>(terms.size()) * parts / kSteps +

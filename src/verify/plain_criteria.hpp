@@ -3,6 +3,7 @@
 /// The criteria, each written a second time from its definition in the README.
 
 #include "verify/plain_mesh.hpp"
+#include "verify/plain_reference.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -31,10 +32,12 @@ struct PlainCriterion {
   Combines combines = Combines::Sum;
   bool maximised = false;
   bool counts = false;  ///< a whole number
+  const PlainReference* reference = nullptr;
 };
 
-/// The criterion of that name ("edge-length", "2*edge-length+0.5*normal-angle-sum"), if it is known here.
-std::optional<PlainCriterion> plain_criterion(const std::string& name);
+/// The criterion of that name ("edge-length", "2*edge-length+0.5*normal-angle-sum"), if it is known here and
+/// has the reference that it needs.
+std::optional<PlainCriterion> plain_criterion(const std::string& name, const PlainReference* reference);
 
 /// Terms in steps of 2^-32 of the unit, each rounded once. Triangles are counter-clockwise; the edge ab has
 /// triangle a, b, l on its left and b, a, r on its right.
@@ -42,6 +45,8 @@ std::int64_t triangle_term(const PlainMesh& mesh, PlainScale scale, const PlainC
                            Index b, Index c);
 std::int64_t edge_term(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion, Index a,
                        Index b, Index l, Index r);
+/// What no diagonal changes and no triangle or edge holds, rounded once.
+std::int64_t constant_term(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion);
 
 struct PlainValue {
   long double value = 0;

@@ -2,8 +2,7 @@
 
 /// Is what is called optimal the optimum? Proved again by a plain solver, where the problem is narrow enough.
 
-#include "verify/plain_criteria.hpp"
-#include "verify/plain_delaunay.hpp"
+#include "verify/plain_terms.hpp"
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/verify/verify.hpp>
@@ -12,14 +11,6 @@
 #include <vector>
 
 namespace thalweg::verify {
-
-struct PlainProblem {
-  const PlainMesh& delaunay;
-  std::span<const PlainQuadrilateral> quadrilaterals;
-  PlainScale scale;
-  unsigned order = 1;
-  bool structure_known = true;  ///< the quadrilaterals are all there are
-};
 
 /// One line for each criterion: its bound, given that the criteria before it are at their claimed values.
 std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const CriterionClaim> claims,

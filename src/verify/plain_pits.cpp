@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace thalweg::verify {
 
@@ -55,21 +56,23 @@ PlainPlateaus::PlainPlateaus(const PlainMesh& delaunay, std::span<const PlainQua
   for (Index v = 0; v < n; ++v) {
     if (used[v] && node(v) != drained_) is_plateau_[node(v)] = true;
   }
+  std::vector<PlainLink> links;
   for (Index q = 0; q < quadrilaterals.size(); ++q) {
     const auto& [s, u, t, v, left, right] = quadrilaterals[q];
     for (const bool label : {false, true}) {
       Index high = label ? s : u, low = label ? t : v;
       if (delaunay.z[high] < delaunay.z[low]) std::swap(high, low);
       const Index from = node(high), to = delaunay.z[high] == delaunay.z[low] ? node(low) : drained_;
-      if (from != to) links_.push_back({q, label, from, to});
+      if (from != to) links.push_back({q, label, from, to});
     }
   }
+  links_ = PlainLinks(std::move(links), n + 1);
 }
 
 std::size_t PlainPlateaus::fewest() const {
   std::vector<Index> parent(is_plateau_.size());
   std::iota(parent.begin(), parent.end(), Index{0});
-  for (const Link& link : links_) parent[find(parent, link.a)] = find(parent, link.b);
+  for (const PlainLink& link : links_.all()) parent[find(parent, link.a)] = find(parent, link.b);
   std::size_t count = 0;
   std::vector<bool> seen(parent.size(), false);
   seen[find(parent, drained_)] = true;
@@ -85,7 +88,7 @@ std::size_t PlainPlateaus::fewest() const {
 std::vector<Factor> PlainPlateaus::clauses(const std::vector<Index>& set_of_node) const {
   constexpr std::size_t kLargest = 14;  // a clause that is left out makes the bound weaker, never wrong
   std::map<Index, std::map<Index, std::array<bool, 2>>> leaving;  // set -> quadrilateral -> labels that leave
-  for (const Link& link : links_) {
+  for (const PlainLink& link : links_.all()) {
     const Index a = set_of_node[link.a], b = set_of_node[link.b];
     if (a == b) continue;
     for (const Index set : {a, b}) {
@@ -118,7 +121,7 @@ std::vector<Factor> PlainPlateaus::plateau_clauses() const {
 std::vector<Factor> PlainPlateaus::broken_clauses(const std::vector<bool>& labels) const {
   std::vector<Index> parent(is_plateau_.size());
   std::iota(parent.begin(), parent.end(), Index{0});
-  for (const Link& link : links_) {
+  for (const PlainLink& link : links_.all()) {
     if (labels[link.quadrilateral] == link.label) parent[find(parent, link.a)] = find(parent, link.b);
   }
   std::vector<Index> set(parent.size());

@@ -3,7 +3,7 @@
 /// Fewest pits over all labellings, as connectivity of plateaus.
 
 #include "verify/plain_delaunay.hpp"
-#include "verify/plain_solver.hpp"
+#include "verify/plain_links.hpp"
 
 #include <span>
 #include <vector>
@@ -16,6 +16,8 @@ class PlainPlateaus {
  public:
   PlainPlateaus(const PlainMesh& delaunay, std::span<const PlainQuadrilateral> quadrilaterals);
 
+  /// Between nodes: plateaus that are not drained, and one node for all that is.
+  [[nodiscard]] const PlainLinks& links() const { return links_; }
   /// No labelling has fewer pits: the sets of plateaus that all diagonals together leave undrained.
   [[nodiscard]] std::size_t fewest() const;
   /// For each plateau that some diagonal connects: one of them must be chosen where pits are fewest.
@@ -25,14 +27,9 @@ class PlainPlateaus {
   [[nodiscard]] std::vector<Factor> broken_clauses(const std::vector<bool>& labels) const;
 
  private:
-  struct Link {
-    Index quadrilateral;
-    bool label;
-    Index a, b;  ///< nodes
-  };
   [[nodiscard]] std::vector<Factor> clauses(const std::vector<Index>& set_of_node) const;
 
-  std::vector<Link> links_;
+  PlainLinks links_;
   Index drained_ = 0;             ///< the node of all that is drained; nodes before it are plateaus
   std::vector<bool> is_plateau_;  ///< nodes that stand for an undrained plateau
 };

@@ -2,25 +2,14 @@
 
 /// Least cost of a choice between two labels for each of many variables: dominance, then elimination.
 
-#include "verify/plain_mesh.hpp"
+#include "verify/factor_sum.hpp"
 
 #include <thalweg/base/progress.hpp>
 
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace thalweg::verify {
-
-/// Compared lexicographically, added component by component.
-using Cost = std::array<std::int64_t, 4>;
-
-/// A cost that depends on few variables.
-struct Factor {
-  std::vector<Index> scope;  ///< ascending
-  std::vector<Cost> table;   ///< bit i of the index is the label of scope[i]
-};
 
 struct PlainOptimum {
   Cost cost{};

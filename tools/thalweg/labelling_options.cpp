@@ -15,6 +15,8 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
   command.add_option("--definition", arguments.definition, "which constrained order");
   command.add_option("--optimize", arguments.optimize,
                      "criteria in order of priority, separated by commas, or none");
+  command.add_option("--reference", arguments.reference,
+                     "what vertical-error is measured against: a DEM, or points");
   command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)");
 }
 
@@ -71,6 +73,15 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   }
   config.criteria = parse_criteria(arguments.optimize);
   if (arguments.effort > 0) config.effort = arguments.effort;
+  const auto needs_reference = [](const Objective& objective) { return objective.needs_reference(); };
+  const bool needed = std::any_of(config.criteria.begin(), config.criteria.end(), needs_reference);
+  if (needed == arguments.reference.empty()) {
+    throw Error(ErrorCode::Usage,
+                needed ? "vertical-error is measured against a DEM or points; name them with --reference"
+                       : "--reference " + arguments.reference +
+                             " serves vertical-error, which --optimize does not name");
+  }
+  if (needed) config.reference = parse_source(arguments.reference);
   return config;
 }
 

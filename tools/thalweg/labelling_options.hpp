@@ -16,6 +16,7 @@ struct LabellingArguments {
   std::string definition = "sees-opp";
   std::string optimize = "local-minima,normal-angle-sum";
   std::uint64_t effort = 0;
+  std::string reference;
 };
 
 void add_labelling_options(CLI::App& command, LabellingArguments& arguments);

@@ -1,5 +1,6 @@
 // thalweg verify: a TIN re-checked by slow and plain code.
 #include "command.hpp"
+#include "source_options.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/verify_tin.hpp>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace thalweg::cli {
 
@@ -14,6 +16,9 @@ void add_verify_command(CLI::App& app) {
   struct Arguments {
     VerifyConfig config;
     std::string definition;
+    std::vector<std::string> points;
+    std::string reference;
+    SourceArguments sources;
     Common common;
   };
   auto a = std::make_shared<Arguments>();
@@ -26,8 +31,19 @@ void add_verify_command(CLI::App& app) {
   command
       ->add_option("--order", a->config.order, "largest order of a triangle (default: the report's, else 1)")
       ->check(CLI::Range(0U, 1000U));
+  command->add_option("--reference", a->reference,
+                      "what vertical-error was measured against: a DEM, or points");
+  command->add_option("--points", a->points, "sources of points that the TIN was built of; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_source_options(*command, a->sources, a->config.read);
+  command->add_option("--snap", a->config.snap_m, "as given to build, metres")->check(CLI::NonNegativeNumber);
   add_common_options(*command, a->common);
   command->callback([a] {
+    if (!a->reference.empty()) a->config.reference = parse_source(a->reference);
+    for (const std::string& file : a->points) a->config.points.push_back(parse_source(file));
+    apply_sources(a->sources, a->config.read, a->config.lines);
     if (!a->definition.empty()) a->config.definition = parse_definition(a->definition);
     const VerifyResult result = verify_tin(a->config, progress_of(a->common));
     if (a->common.format == Format::Json) {

@@ -24,7 +24,8 @@ enum class Criterion : std::uint8_t {
   AreaRatioMax,
   MaxArea,
   MaxAngle,
-  MinAngle
+  MinAngle,
+  VerticalError
 };
 
 /// What one term of a criterion depends on.
@@ -76,6 +77,8 @@ struct Objective {
   }
   /// Whether its value is that of one term, the worst.
   [[nodiscard]] bool is_extreme() const;
+  /// Whether a part measures against heights from elsewhere (`OptimizeOptions::reference`).
+  [[nodiscard]] bool needs_reference() const;
   [[nodiscard]] std::string name() const;  ///< as `parse_objective` reads it
   [[nodiscard]] std::string_view unit() const;
   [[nodiscard]] Direction direction() const;

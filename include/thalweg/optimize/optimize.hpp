@@ -5,6 +5,7 @@
 #include <thalweg/base/progress.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/optimize/criterion.hpp>
+#include <thalweg/optimize/reference.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
 
 #include <cstdint>
@@ -22,6 +23,7 @@ struct OptimizeOptions {
   std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   double horizontal_metres_per_unit = 1;
   double vertical_metres_per_unit = 1;
+  const Reference* reference = nullptr;  ///< for vertical-error; outlives the call
   /// Largest number of undecided quadrilaterals that one table of the dynamic program covers, 1 to 24; a
   /// table of width w has 2^w entries of 24 bytes.
   std::uint32_t width_limit = 18;
@@ -60,9 +62,9 @@ struct OptimizeResult {
 ///
 /// Pre: the quadrilaterals are strictly convex, unconstrained pairs of triangles of the TIN, no two of which
 /// share a triangle. Heights are finite.
-/// Throws: Error{Usage} if a criterion is repeated, a unit is not positive or the width limit is out of
-/// range; Error{SizeLimit} from 2^28 edges on; Error{Cancelled}. Complexity: linear but for pieces that stay
-/// wide; runs on all threads.
+/// Throws: Error{Usage} if a criterion is repeated or lacks its reference, a unit is not positive or the
+/// width limit is out of range; Error{SizeLimit} from 2^28 edges on; Error{Cancelled}. Complexity: linear but
+/// for pieces that stay wide; runs on all threads.
 OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                     const OptimizeOptions& options, Progress& progress);
 

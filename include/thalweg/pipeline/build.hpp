@@ -34,6 +34,7 @@ struct LabellingConfig {
   OrderDefinition definition = OrderDefinition::SeesOpp;
   std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own
+  std::optional<SourceSpec> reference;  ///< what vertical-error is measured against: a DEM, or points
 };
 
 struct BuildConfig {

@@ -3,6 +3,7 @@
 /// A TIN file re-checked against what its report claims.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/io/source.hpp>
 #include <thalweg/order/definition.hpp>
 #include <thalweg/verify/verify.hpp>
 
@@ -17,6 +18,12 @@ struct VerifyConfig {
   std::string report_path;                    ///< JSON report; empty: only what needs none is checked
   std::optional<OrderDefinition> definition;  ///< none: the report's, else sees-opp
   std::optional<unsigned> order;              ///< none: the report's, else 1
+  std::optional<SourceSpec> reference;        ///< what vertical-error is measured against
+  /// What the TIN was made of; without points and lines, the sources are not checked.
+  std::vector<SourceSpec> points;
+  std::vector<LineSource> lines;
+  ReadOptions read;   ///< as given to build
+  double snap_m = 0;  ///< metres in the metric plane, as given to build
 };
 
 struct VerifyResult {
@@ -26,8 +33,9 @@ struct VerifyResult {
   [[nodiscard]] bool holds() const;
 };
 
-/// Reads the file as it is and checks it (see verify::check) in the plane that the report names, else in that
-/// of the file's own extent. Throws: what reading throws; Error{BadFormat} for a report that is none.
+/// Reads the file as it is and checks it (see verify::check, verify::check_sources) in the plane that the
+/// report names, else in that of the file's own extent.
+/// Throws: what reading throws; Error{BadFormat} for a report that is none.
 VerifyResult verify_tin(const VerifyConfig& config, Progress& progress);
 
 std::string to_json(const VerifyResult& result);

@@ -54,6 +54,9 @@ struct Subject {
   std::span<const double> heights;
   std::span<const Triangle> triangles;
   std::span<const ConstraintEdge> constraints;
+  /// What vertical-error is measured against, in the plane and the unit of heights; empty: it is not checked.
+  std::span<const Point2> reference_points;
+  std::span<const double> reference_heights;
   double horizontal_metres_per_unit = 1;
   double vertical_metres_per_unit = 1;
   OrderDefinition definition = OrderDefinition::SeesOpp;
