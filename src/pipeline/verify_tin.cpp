@@ -94,6 +94,9 @@ void read_source_claims(const Json& report, const Plane& plane, verify::Sources&
   }
   sources.positions_left_out = read<std::size_t>(report, "/input/outside_boundary").value_or(0) +
                                read<std::size_t>(report, "/tin/vertices_left_out").value_or(0);
+  if (const auto error = read<double>(report, "/simplification/largest_error_m/result")) {
+    sources.largest_error = *error / plane.vertical_metres_per_unit();
+  }
   sources.is_cut = sources.is_cut || read<std::size_t>(report, "/tin/dropped_rim_triangles").value_or(0) > 0;
 }
 

@@ -125,14 +125,25 @@ class SourceChecker {
     return nearest;
   }
 
-  [[nodiscard]] bool on_surface(Point2 p) const {
-    bool found = false;
-    if (p.x < box_.x_min || p.x > box_.x_max || p.y < box_.y_min || p.y > box_.y_max) return false;
+  [[nodiscard]] bool on_surface(Point2 p) const { return height_at(p).has_value(); }
+
+  /// The height of a triangle that holds the position.
+  [[nodiscard]] std::optional<double> height_at(Point2 p) const {
+    std::optional<double> found;
+    if (p.x < box_.x_min || p.x > box_.x_max || p.y < box_.y_min || p.y > box_.y_max) return found;
     triangles_.for_cells(box_of({p}), [&](std::size_t cell, const Box2&) {
       for (const Index t : triangles_.in(cell)) {
         const Triangle& c = subject_.triangles[t];
-        found = found || (turn(at(c[0]), at(c[1]), p) >= 0 && turn(at(c[1]), at(c[2]), p) >= 0 &&
-                          turn(at(c[2]), at(c[0]), p) >= 0);
+        const Point2 u = at(c[0]), v = at(c[1]), w = at(c[2]);
+        if (turn(u, v, p) < 0 || turn(v, w, p) < 0 || turn(w, u, p) < 0) continue;
+        using Extended = long double;
+        const auto area = [](Point2 a, Point2 b, Point2 d) {
+          return (Extended{b.x} - a.x) * (Extended{d.y} - a.y) -
+                 (Extended{b.y} - a.y) * (Extended{d.x} - a.x);
+        };
+        const auto z = [&](std::size_t i) { return Extended{subject_.heights[c[i].index()]}; };
+        found = static_cast<double>((area(v, w, p) * z(0) + area(w, u, p) * z(1) + area(u, v, p) * z(2)) /
+                                    area(u, v, w));
       }
     });
     return found;
@@ -148,7 +159,7 @@ class SourceChecker {
   Finding check_points() {
     Faults faults;
     std::set<Point2> off_surface;
-    std::size_t merged = 0;
+    std::size_t merged = 0, near = 0;
     std::set<Index> met;
     for (std::size_t i = 0; i < sources_.points.size(); ++i) {
       if (i % kStep == 0) progress_.check();
@@ -156,8 +167,14 @@ class SourceChecker {
       if (const auto v = vertex_at(p)) {
         said_[*v].points.push_back(sources_.heights[i]);
         merged += met.insert(*v).second ? 0 : 1;
-      } else if (on_surface(p)) {
-        faults.add(name_of_point(i) + " at " + text(p));
+      } else if (const auto height = height_at(p)) {
+        const double error = std::abs(*height - sources_.heights[i]);
+        if (sources_.largest_error && error <= *sources_.largest_error * (1 + 1e-9) + 1e-9) {
+          ++near;
+          continue;
+        }
+        faults.add(name_of_point(i) + " at " + text(p) +
+                   (sources_.largest_error ? fmt::format(", {} from the TIN", error) : ""));
       } else {
         off_surface.insert(p);
         const bool allowed = sources_.positions_left_out ? off_surface.size() <= *sources_.positions_left_out
@@ -167,9 +184,12 @@ class SourceChecker {
         }
       }
     }
-    return faults.finding("every point is a vertex",
-                          fmt::format("{} points, {} of them merged, {} positions off the surface",
-                                      sources_.points.size(), merged, off_surface.size()));
+    const std::string held = fmt::format("{} points, {} of them merged, {} positions off the surface",
+                                         sources_.points.size(), merged, off_surface.size());
+    if (!sources_.largest_error) return faults.finding("every point is a vertex", held);
+    return faults.finding(
+        fmt::format("every point is a vertex, or within {:.6g} of the TIN", *sources_.largest_error),
+        held + fmt::format(", {} within", near));
   }
 
   [[nodiscard]] static bool is_given(const SourceLine& line, std::size_t i) {

@@ -40,14 +40,16 @@ struct Sources {
   /// micrometre or a pixel), and how many positions the surface does not hold.
   std::optional<std::vector<Conflict>> conflicts;
   std::optional<std::size_t> positions_left_out;
+  /// Of a simplified source: no point is vertically farther from the TIN, in the unit of heights.
+  std::optional<double> largest_error;
   /// Whether the surface may end before its sources do: an area bounds it, or triangles at the rim went.
   bool is_cut = false;
 };
 
-/// One line for each: points and vertices of lines are vertices, heights are theirs, lines are covered.
-/// What lies on the surface and is missing breaks the claim; what lies off it has to be allowed for by
-/// `is_cut` and `positions_left_out`. Pre: the mesh is sound. Throws: Error{Cancelled}.
-/// Complexity: n log n for usual input.
+/// One line for each: points (of a simplified source: those that were kept) and vertices of lines are
+/// vertices, heights are theirs, lines are covered. What lies on the surface and is missing breaks the claim;
+/// what lies off it has to be allowed for by `is_cut` and `positions_left_out`. Pre: the mesh is sound.
+/// Throws: Error{Cancelled}. Complexity: n log n for usual input.
 std::vector<Finding> check_sources(const Subject& subject, const Sources& sources, Progress& progress);
 
 }  // namespace thalweg::verify
