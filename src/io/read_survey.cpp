@@ -7,6 +7,7 @@
 // 3. Each source is read through its transform into the survey, points first.
 // 4. Options that no source could use are errors; so are an empty survey and degrees out of range.
 #include "io/gdal_session.hpp"
+#include "io/memory_source.hpp"
 #include "io/source_reader.hpp"
 #include "io/spatial_reference.hpp"
 
@@ -56,9 +57,12 @@ class SurveyReading {
   SurveyReading(const ReadOptions& options, Progress& progress)
       : run_{.options = options, .progress = progress} {}
 
-  void open(std::span<const SourceSpec> points, std::span<const LineSource> lines) {
+  void open(std::span<const SourceSpec> points, std::span<const LineSource> lines,
+            const MemorySource& memory) {
+    if (!memory.xy.empty() || !memory.z.empty()) readers_.push_back(open_memory_points(memory));
     for (const SourceSpec& spec : points) readers_.push_back(open_points(spec, run_.progress));
     point_sources_ = readers_.size();
+    if (!memory.lines.empty()) readers_.push_back(open_memory_lines(memory));
     for (const LineSource& source : lines) readers_.push_back(thalweg::open_lines(source));
     run_.sources = readers_.size();
     for (const auto& reader : readers_) sources_.push_back(reader->name());
@@ -229,12 +233,12 @@ class SurveyReading {
 }  // namespace
 
 ReadResult read_survey(std::span<const SourceSpec> points, std::span<const LineSource> lines,
-                       const ReadOptions& options, Progress& progress) {
+                       const ReadOptions& options, Progress& progress, const MemorySource& memory) {
   check_options(options);
   progress.start_phase("read");
   try {
     SurveyReading reading(options, progress);
-    reading.open(points, lines);
+    reading.open(points, lines, memory);
     reading.choose_frames();
     reading.read();
     return reading.finish();

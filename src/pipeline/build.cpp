@@ -88,14 +88,18 @@ void describe_input(const ReadResult& read, const Ground& ground, Report& report
 
 }  // namespace
 
-Report build(const BuildConfig& config, Progress& progress) {
+namespace {
+
+BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const OutputConfig& output,
+                 Progress& progress) {
   Stopwatch watch;
-  Report report;
+  BuiltTin built;
+  Report& report = built.report;
   report.command = "build";
-  RunOutputs outputs(config.output);
+  RunOutputs outputs(output);
 
   progress.start_phase("read");
-  auto [read, plane, survey] = read_into_plane(config.points, config.lines, config.read, progress);
+  auto [read, plane, survey] = read_into_plane(config.points, config.lines, config.read, progress, memory);
   report.notes = read.notes;
   report.input.vertices_inserted_on_lines = survey.vertices_inserted_on_lines;
   note_assumptions(read.crs, report);
@@ -134,9 +138,26 @@ Report build(const BuildConfig& config, Progress& progress) {
     report.timings_s.simplify = watch.lap();
   }
 
-  finish_run(std::move(terrain), {plane, read.crs, config.labelling, config.output, outputs, watch}, report,
+  finish_run(std::move(terrain), {plane, read.crs, config.labelling, output, outputs, watch}, built,
              progress);
-  return report;
+  return built;
+}
+
+}  // namespace
+
+BuiltTin build_tin(const BuildConfig& config, const MemorySource& memory, Progress& progress) {
+  return run_job(config, memory, {}, progress);
+}
+
+Report build(const BuildConfig& config, Progress& progress) {
+  return run_job(config, {}, config.output, progress).report;
+}
+
+void write_built(const BuiltTin& built, const OutputConfig& output, Progress& progress) {
+  PendingOutputs pending;
+  write_tin_of(built, output, pending, progress);
+  progress.check();
+  pending.commit();
 }
 
 }  // namespace thalweg

@@ -92,7 +92,8 @@ Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points,
 
 Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
   Stopwatch watch;
-  Report report;
+  BuiltTin built;
+  Report& report = built.report;
   report.command = "optimize";
   RunOutputs outputs(config.output);
 
@@ -114,7 +115,7 @@ Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
   }
   progress.advance(1);
 
-  finish_run(std::move(terrain), {plane, crs, config.labelling, config.output, outputs, watch}, report,
+  finish_run(std::move(terrain), {plane, crs, config.labelling, config.output, outputs, watch}, built,
              progress);
   return report;
 }

@@ -28,8 +28,8 @@ PlaneSurvey to_plane(Survey survey, const Plane& plane, const Progress& progress
 }  // namespace
 
 SurveyInPlane read_into_plane(std::span<const SourceSpec> points, std::span<const LineSource> lines,
-                              const ReadOptions& options, Progress& progress) {
-  ReadResult read = read_survey(points, lines, options, progress);
+                              const ReadOptions& options, Progress& progress, const MemorySource& memory) {
+  ReadResult read = read_survey(points, lines, options, progress, memory);
   std::size_t inserted = 0;
   if (read.crs.geographic) inserted += split_lines_at_points(read.survey, progress);
   Plane plane(read.crs, positions_of(read.survey));

@@ -31,7 +31,8 @@ struct SurveyInPlane {
 /// and pieces that bend are densified, before anything is projected. Throws: what reading and projecting
 /// throw.
 SurveyInPlane read_into_plane(std::span<const SourceSpec> points, std::span<const LineSource> lines,
-                              const ReadOptions& options, Progress& progress);
+                              const ReadOptions& options, Progress& progress,
+                              const MemorySource& memory = {});
 
 /// The written coordinates of the vertices of a ground that was built of the survey; empty: the plane's own.
 std::vector<Point2> written_of(const Ground& ground, const PlaneSurvey& survey, const Plane& plane);

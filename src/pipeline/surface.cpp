@@ -51,6 +51,7 @@ double Stopwatch::total() const {
 
 RunOutputs::RunOutputs(const OutputConfig& config) {
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
+  if (config.path.empty()) return;
   check_write_options(config.path, {.format = config.format, .creation_options = config.creation_options});
   PendingOutputs().add(config.path, mode);  // the TIN's writer adds it again, with its sidecars
   const auto reserve = [&](const std::string& path) {
@@ -307,12 +308,9 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
 
 // What is written, under the ids of the outputs.
 struct Outcome {
-  Tin tin;
-  std::vector<Point2> written;
-  std::vector<std::uint8_t> vertex_source;
-  std::vector<std::uint8_t> is_pit_before, is_pit;
+  BuiltTin built;
+  std::vector<std::uint8_t> is_pit_before;
   std::vector<std::array<VertexId, 2>> new_diagonals;
-  std::vector<std::uint16_t> orders;
 };
 
 std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<VertexId, 2>> new_diagonals) {
@@ -327,27 +325,26 @@ std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<
 
 Outcome outcome_of(Labelled labelled, Terrain terrain, PitSummary before, PitSummary after,
                    const Progress& progress) {
-  Outcome outcome{.tin = std::move(labelled.tin),
-                  .written = std::move(terrain.written),
-                  .vertex_source = std::move(terrain.vertex_source),
+  Outcome outcome{.built = {.tin = std::move(labelled.tin),
+                            .written = std::move(terrain.written),
+                            .vertex_source = std::move(terrain.vertex_source),
+                            .is_pit = std::move(after.is_pit)},
                   .is_pit_before = std::move(before.is_pit),
-                  .is_pit = std::move(after.is_pit),
-                  .new_diagonals = std::move(labelled.new_diagonals),
-                  .orders = {}};
+                  .new_diagonals = std::move(labelled.new_diagonals)};
   labelled.delaunay = {};
   labelled.quadrilaterals = {};
   if (const std::span<const VertexId> number = terrain.number; !number.empty()) {
-    outcome.tin = outcome.tin.renumbered(number, progress);
-    outcome.written = renumbered<Point2>(outcome.written, number);
-    outcome.vertex_source = renumbered<std::uint8_t>(outcome.vertex_source, number);
+    outcome.built.tin = outcome.built.tin.renumbered(number, progress);
+    outcome.built.written = renumbered<Point2>(outcome.built.written, number);
+    outcome.built.vertex_source = renumbered<std::uint8_t>(outcome.built.vertex_source, number);
     outcome.is_pit_before = renumbered<std::uint8_t>(outcome.is_pit_before, number);
-    outcome.is_pit = renumbered<std::uint8_t>(outcome.is_pit, number);
+    outcome.built.is_pit = renumbered<std::uint8_t>(outcome.built.is_pit, number);
     for (auto& [a, b] : outcome.new_diagonals) {
       std::tie(a, b) = std::minmax(number[a.index()], number[b.index()]);
     }
     std::sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
   }
-  outcome.orders = orders_of(outcome.tin, outcome.new_diagonals);
+  outcome.built.orders = orders_of(outcome.built.tin, outcome.new_diagonals);
   return outcome;
 }
 
@@ -371,8 +368,8 @@ void write_problem(const Labelled& labelled, const RunContext& run, Progress& pr
 
 void draw_result(const Outcome& outcome, const RunContext& run, Progress& progress) {
   const std::vector<std::uint8_t> pits_before = interior_pits(outcome.is_pit_before);
-  const std::vector<std::uint8_t> pits_after = interior_pits(outcome.is_pit);
-  const PictureScene scene{.tin = outcome.tin,
+  const std::vector<std::uint8_t> pits_after = interior_pits(outcome.built.is_pit);
+  const PictureScene scene{.tin = outcome.built.tin,
                            .horizontal_metres_per_unit = run.plane.metres_per_unit(),
                            .vertical_metres_per_unit = run.plane.vertical_metres_per_unit(),
                            .pits_before = pits_before,
@@ -383,26 +380,24 @@ void draw_result(const Outcome& outcome, const RunContext& run, Progress& progre
                scene, progress);
 }
 
-// Writes the TIN and the picture aside.
-void write_outcome(const Outcome& outcome, const RunContext& run, std::span<const Conflict> conflicts,
-                   Progress& progress) {
-  const TinView view{.tin = outcome.tin,
-                     .written_xy = outcome.written,
-                     .crs_wkt = run.crs.wkt,
-                     .crs_authority = run.crs.authority,
-                     .is_pit = outcome.is_pit,
-                     .vertex_source = outcome.vertex_source,
-                     .triangle_orders = outcome.orders,
-                     .conflicts = conflicts};
-  write_tin(run.output.path, view,
-            {.format = run.output.format, .creation_options = run.output.creation_options},
-            run.outputs.pending, run.output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
-  if (!run.outputs.picture.empty()) draw_result(outcome, run, progress);
-}
-
 }  // namespace
 
-void finish_run(Terrain terrain, const RunContext& run, Report& report, Progress& progress) {
+void write_tin_of(const BuiltTin& built, const OutputConfig& output, PendingOutputs& pending,
+                  Progress& progress) {
+  const TinView view{.tin = built.tin,
+                     .written_xy = built.written,
+                     .crs_wkt = built.crs.wkt,
+                     .crs_authority = built.crs.authority,
+                     .is_pit = built.is_pit,
+                     .vertex_source = built.vertex_source,
+                     .triangle_orders = built.orders,
+                     .conflicts = built.report.conflicts};
+  write_tin(output.path, view, {.format = output.format, .creation_options = output.creation_options},
+            pending, output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
+}
+
+void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progress& progress) {
+  Report& report = built.report;
   Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
 
   progress.start_phase("check");
@@ -420,9 +415,13 @@ void finish_run(Terrain terrain, const RunContext& run, Report& report, Progress
 
   progress.start_phase("write");
   if (!run.outputs.problem.empty()) write_problem(labelled, run, progress);
-  write_outcome(outcome_of(std::move(labelled), std::move(terrain), std::move(pits_before),
-                           std::move(pits_after), progress),
-                run, report.conflicts, progress);
+  Outcome outcome = outcome_of(std::move(labelled), std::move(terrain), std::move(pits_before),
+                               std::move(pits_after), progress);
+  outcome.built.crs = run.crs;
+  outcome.built.report = std::move(built.report);
+  if (!run.output.path.empty()) write_tin_of(outcome.built, run.output, run.outputs.pending, progress);
+  if (!run.outputs.picture.empty()) draw_result(outcome, run, progress);
+  built = std::move(outcome.built);
   report.timings_s.write = run.watch.lap();
   report.timings_s.total = run.watch.total();
   report.peak_memory_bytes = peak_memory_bytes();

@@ -61,9 +61,13 @@ struct RunContext {
   Stopwatch& watch;
 };
 
-/// Finds the quadrilaterals, optimises, checks, writes all outputs, and fills the rest of the report.
-/// Throws: Error; nothing is left behind then.
-void finish_run(Terrain terrain, const RunContext& run, Report& report, Progress& progress);
+/// Finds the quadrilaterals, optimises, checks, writes all outputs, and fills the rest of what is built; its
+/// report has been begun. Throws: Error; nothing is left behind then.
+void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progress& progress);
+
+/// Writes the TIN aside. Throws: as write_tin.
+void write_tin_of(const BuiltTin& built, const OutputConfig& output, PendingOutputs& pending,
+                  Progress& progress);
 
 /// Counts that the report, `info` and the demo share.
 ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point2> written);

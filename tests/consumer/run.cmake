@@ -9,6 +9,6 @@ run(${WORK}/installed/${BINARIES}/thalweg --version)
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -D CMAKE_PREFIX_PATH=${WORK}/installed
   -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=${BUILD_TYPE})
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-foreach(flavour thalweg shared static)
+foreach(flavour thalweg shared static c)
   run(${WORK}/build/consumer_${flavour})
 endforeach()

@@ -3,7 +3,7 @@
 `violations(root)` reads the project at `root` and returns one line for each broken law:
   1. A module includes only modules of lower layers; modules of one layer do not see each other.
   2. A foreign library is included only behind its fence (CGAL, GDAL, GeographicLib, Cairo).
-  3. Headers under include/ are plain: the C++ standard library and other public headers.
+  3. Headers under include/ are plain: the C++ (of .h: the C) standard library and other public headers.
   4. The library, under src/ and include/, neither prints nor ends the process.
   5. A header has fewer than 150 lines, a source fewer than 500.
   6. No file or folder is called misc, utils, common, helpers or manager; no CMake file globs.
@@ -24,6 +24,7 @@ LAYERS = [
     ["optimize", "terrain", "verify"],
     ["pipeline"],
     ["tools/thalweg", "tools/qgis", "src/capi"],
+    ["tools/python"],
 ]
 LAYER_OF = {module: layer for layer, modules in enumerate(LAYERS) for module in modules}
 
@@ -36,6 +37,7 @@ FENCES = {
     "NetCDF": (re.compile(r"netcdf"), {"io"}),
 }
 STANDARD_HEADER = re.compile(r"[a-z_0-9]+")
+C_HEADER = re.compile(r"std[a-z]+\.h")
 PRINTS_OR_ENDS = re.compile(
     r"#\s*include\s*<(iostream|print)>"
     r"|\b([fv]?printf|f?puts|putchar|perror|exit|_Exit|quick_exit|abort)\s*\(")
@@ -98,7 +100,8 @@ def include_violations(root, path, quote, target):
         if headers.match(target) and fenced_module_of(path) not in allowed:
             if path.parts[0] != "tests" or len(path.parts) > 3:
                 yield f"{library} belongs to {' and '.join(sorted(allowed))}"
-    if path.parts[0] == "include" and not STANDARD_HEADER.fullmatch(target):
+    standard = C_HEADER if path.suffix == ".h" else STANDARD_HEADER
+    if path.parts[0] == "include" and not standard.fullmatch(target):
         yield "a public header includes only the standard library and thalweg/"
 
 

@@ -1,6 +1,6 @@
 // thalweg convert: from a TIN to another mesh, to vector layers, to a raster, to contours.
 #include "command.hpp"
-#include "source_options.hpp"
+#include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/convert.hpp>

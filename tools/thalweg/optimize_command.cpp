@@ -1,6 +1,7 @@
 // thalweg optimize: the same optimisation on a TIN that exists.
 #include "command.hpp"
-#include "labelling_options.hpp"
+#include "output_options.hpp"
+#include "pipeline/labelling_options.hpp"
 
 #include <thalweg/pipeline/build.hpp>
 

@@ -1,6 +1,6 @@
 // thalweg order: constrained orders of triangles, all triangles and useful edges of an order, quadrilaterals.
 #include "command.hpp"
-#include "source_options.hpp"
+#include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/order_points.hpp>

@@ -1,6 +1,6 @@
 // thalweg verify: a TIN re-checked by slow and plain code.
 #include "command.hpp"
-#include "source_options.hpp"
+#include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/verify_tin.hpp>

@@ -35,6 +35,18 @@ struct LineSource {
   EdgeKind kind = EdgeKind::Breakline;
 };
 
+/// Points and lines that a caller holds in memory.
+struct MemoryLine {
+  EdgeKind kind = EdgeKind::Breakline;
+  std::vector<Point2> xy;
+  std::vector<double> z;  ///< empty: a soft line; else as long as xy
+};
+struct MemorySource {
+  std::vector<Point2> xy;
+  std::vector<double> z;  ///< as long as xy
+  std::vector<MemoryLine> lines;
+};
+
 /// Whether points need a height.
 enum class HeightRule {
   Required,  ///< a point without height is an error
@@ -86,7 +98,7 @@ struct ReadResult {
   std::vector<std::string> notes;  ///< what a user should know, one sentence each
 };
 
-/// Reads all sources, in the order given, into one plane.
+/// Reads all sources, in the order given, into one plane; those in memory come first.
 ///
 /// Points: OGR layers of points and multipoints; text (.csv .tsv .txt .xyz .asc .dat, also with .gz:
 /// separators , ; tab or blanks; # comments; columns by name, else the first three); rasters (a point a valid
@@ -102,6 +114,6 @@ struct ReadResult {
 /// Error{MissingHeight}; Error{BadCoordinate}; Error{BadCrs}; Error{Usage}; Error{Unsupported};
 /// Error{SizeLimit}; Error{Cancelled}. Complexity: linear; text is read in blocks and never held whole.
 ReadResult read_survey(std::span<const SourceSpec> points, std::span<const LineSource> lines,
-                       const ReadOptions& options, Progress& progress);
+                       const ReadOptions& options, Progress& progress, const MemorySource& memory = {});
 
 }  // namespace thalweg

@@ -4,7 +4,9 @@
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/delaunay/ground.hpp>
+#include <thalweg/io/crs.hpp>
 #include <thalweg/io/source.hpp>
+#include <thalweg/mesh/tin.hpp>
 #include <thalweg/optimize/optimize.hpp>
 #include <thalweg/order/definition.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -52,6 +54,25 @@ struct BuildConfig {
   LabellingConfig labelling;
   OutputConfig output;
 };
+
+/// A TIN that was built, under the ids of the outputs.
+struct BuiltTin {
+  Tin tin;                                  ///< in the plane of triangulation
+  std::vector<Point2> written;              ///< per vertex, as written to files; empty: the plane's own
+  CrsInfo crs;                              ///< of the written coordinates
+  std::vector<std::uint8_t> vertex_source;  ///< per vertex: 0 point, 1 line vertex, 2 crossing
+  std::vector<std::uint8_t> is_pit;
+  std::vector<std::uint16_t> orders;  ///< per triangle
+  Report report;
+};
+
+/// Runs the main job on the sources and on what is in memory, and writes nothing: `config.output` is not
+/// looked at. Throws: Error with the code that fits.
+BuiltTin build_tin(const BuildConfig& config, const MemorySource& memory, Progress& progress);
+
+/// Writes the TIN to `output.path`, the very bytes that `build` writes; of `output` its path, format,
+/// creation options and `overwrite` count. Throws: Error; nothing is left behind then.
+void write_built(const BuiltTin& built, const OutputConfig& output, Progress& progress);
 
 /// Runs the main job and writes its outputs. Results do not depend on the number of threads.
 /// Throws: Error with the code that fits; then no output is left behind.

@@ -1,10 +1,10 @@
 #pragma once
 
-/// Options that `build` and `optimize` share.
-
-#include "command.hpp"
+/// Options of what is optimised, which several commands and faces share.
 
 #include <thalweg/pipeline/build.hpp>
+
+#include <CLI/CLI.hpp>
 
 #include <string>
 
@@ -20,10 +20,6 @@ struct LabellingArguments {
 };
 
 void add_labelling_options(CLI::App& command, LabellingArguments& arguments);
-void add_output_options(CLI::App& command, OutputConfig& output);
 /// Throws: Error{Usage} that names the option and what it takes.
 LabellingConfig parse_labelling(const LabellingArguments& arguments);
-/// Prints the summary that --format asks for, unless quiet; the report to stdout for `--report -`.
-void print_report(const Report& report, const Common& common, const OutputConfig& output);
-
 }  // namespace thalweg::cli

@@ -1,5 +1,5 @@
 // Options about sources that `build` and `order` share.
-#include "source_options.hpp"
+#include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
 

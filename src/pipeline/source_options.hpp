@@ -1,11 +1,11 @@
 #pragma once
 
-/// Options about sources that `build` and `order` share.
-
-#include "command.hpp"
+/// Options about sources, which several commands and faces share.
 
 #include <thalweg/delaunay/ground.hpp>
 #include <thalweg/io/source.hpp>
+
+#include <CLI/CLI.hpp>
 
 #include <string>
 #include <vector>

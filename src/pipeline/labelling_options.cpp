@@ -1,5 +1,5 @@
-// Options that `build` and `optimize` share: what is optimised, where results go.
-#include "labelling_options.hpp"
+// Options of what is optimised.
+#include "pipeline/labelling_options.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -18,20 +18,6 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
   command.add_option("--reference", arguments.reference,
                      "what vertical-error is measured against: a DEM, or points");
   command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)");
-}
-
-void add_output_options(CLI::App& command, OutputConfig& output) {
-  command.add_option("--of", output.format,
-                     "output format (default: by the extension; see `thalweg formats`)");
-  command.add_option("--co", output.creation_options, "creation option of the format, K=V; repeatable")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("--overwrite", output.overwrite, "replace existing outputs");
-  command.add_option("--report", output.report_path, "JSON report; - for stdout");
-  command.add_option("--picture", output.picture_path, "picture of the result: .png, .svg or .pdf");
-  command.add_option("--dump-problem", output.problem_path,
-                     "the labelling problem for another solver, toulbar2's .cfn");
 }
 
 namespace {
@@ -83,14 +69,6 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   }
   if (needed) config.reference = parse_source(arguments.reference);
   return config;
-}
-
-void print_report(const Report& report, const Common& common, const OutputConfig& output) {
-  if (output.report_path == "-" || (common.quiet == 0 && common.format == Format::Json)) {
-    print(to_json(report));
-  } else if (common.quiet == 0) {
-    print(to_text(report));
-  }
 }
 
 }  // namespace thalweg::cli

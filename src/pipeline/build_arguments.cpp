@@ -1,0 +1,58 @@
+// The options of the main job by name.
+#include "pipeline/build_arguments.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+
+namespace thalweg::cli {
+
+namespace {
+
+void add_ground_options(CLI::App& command, BuildArguments& a) {
+  command.add_option("--duplicates", a.config.ground.duplicates, "height of points with the same x, y")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, DuplicateRule>{{"first", DuplicateRule::First},
+                                                                       {"last", DuplicateRule::Last},
+                                                                       {"lowest", DuplicateRule::Lowest},
+                                                                       {"highest", DuplicateRule::Highest},
+                                                                       {"mean", DuplicateRule::Mean}}))
+      ->default_str("first");
+  command.add_option("--snap", a.config.snap_m, "points nearer than this, in metres, count as duplicates")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--max-edge", a.max_edge_m, "drop rim triangles with a longer rim edge, metres")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_simplify_options(CLI::App& command, BuildArguments& a) {
+  command
+      .add_option("--max-error", a.max_error_m,
+                  "simplify: fewest vertices from which no source point is vertically farther, metres")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--max-points", a.max_points,
+                  "simplify: number of vertices, lines and outline included; the first limit reached stops")
+      ->check(CLI::Range(3U, 0xfffffffeU));
+}
+
+}  // namespace
+
+void add_build_options(CLI::App& command, BuildArguments& arguments) {
+  add_source_options(command, arguments.sources, arguments.config.read);
+  add_crossing_option(command, arguments.config.ground);
+  add_ground_options(command, arguments);
+  add_simplify_options(command, arguments);
+  add_labelling_options(command, arguments.labelling);
+}
+
+BuildConfig config_of(const CLI::App& command, BuildArguments arguments) {
+  BuildConfig config = std::move(arguments.config);
+  apply_sources(arguments.sources, config.read, config.lines);
+  if (command.count("--max-edge") > 0) config.max_edge_m = arguments.max_edge_m;
+  if (command.count("--max-error") > 0) config.max_error_m = arguments.max_error_m;
+  if (command.count("--max-points") > 0) config.max_points = arguments.max_points;
+  config.labelling = parse_labelling(arguments.labelling);
+  return config;
+}
+
+}  // namespace thalweg::cli

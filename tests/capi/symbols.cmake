@@ -1,0 +1,13 @@
+# The library shows the functions of the header, with their version, and nothing else.
+execute_process(COMMAND ${NM} -D --defined-only --with-symbol-versions ${LIBRARY} OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^ \n]+@[^ \n]*" shown "${output}")
+list(REMOVE_ITEM shown THALWEG_1@@THALWEG_1)
+file(READ ${HEADER} text)
+string(REGEX MATCHALL "thalweg_[a-z_]+\\(" declared "${text}")
+list(TRANSFORM declared REPLACE "\\(" "@@THALWEG_1")
+list(REMOVE_DUPLICATES declared)
+list(SORT shown)
+list(SORT declared)
+if(NOT "${shown}" STREQUAL "${declared}")
+  message(FATAL_ERROR "shown: ${shown}\ndeclared: ${declared}\n${output}")
+endif()

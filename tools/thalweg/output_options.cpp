@@ -1,0 +1,28 @@
+// Where results go.
+#include "output_options.hpp"
+
+namespace thalweg::cli {
+
+void add_output_options(CLI::App& command, OutputConfig& output) {
+  command.add_option("--of", output.format,
+                     "output format (default: by the extension; see `thalweg formats`)");
+  command.add_option("--co", output.creation_options, "creation option of the format, K=V; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--overwrite", output.overwrite, "replace existing outputs");
+  command.add_option("--report", output.report_path, "JSON report; - for stdout");
+  command.add_option("--picture", output.picture_path, "picture of the result: .png, .svg or .pdf");
+  command.add_option("--dump-problem", output.problem_path,
+                     "the labelling problem for another solver, toulbar2's .cfn");
+}
+
+void print_report(const Report& report, const Common& common, const OutputConfig& output) {
+  if (output.report_path == "-" || (common.quiet == 0 && common.format == Format::Json)) {
+    print(to_json(report));
+  } else if (common.quiet == 0) {
+    print(to_text(report));
+  }
+}
+
+}  // namespace thalweg::cli
