@@ -53,6 +53,27 @@ void Canvas::ring(Point2 centre, double radius, Colour colour, double line_width
   cairo_stroke(cairo());
 }
 
+void Canvas::add_polygon(std::span<const Point2> corners) {
+  cairo_new_sub_path(cairo());
+  for (const Point2 p : corners) cairo_line_to(cairo(), p.x, p.y);
+  cairo_close_path(cairo());
+}
+
+void Canvas::fill(Colour colour) {
+  set_colour(colour);
+  cairo_fill(cairo());
+}
+
+Canvas::Clip::Clip(Canvas& canvas, double left, double top, double width, double height) : canvas_(canvas) {
+  cairo_save(canvas_.cairo());
+  cairo_rectangle(canvas_.cairo(), left, top, width, height);
+  cairo_clip(canvas_.cairo());
+}
+
+Canvas::Clip::~Clip() {
+  cairo_restore(canvas_.cairo());
+}
+
 void Canvas::set_font(double size, Weight weight) const {
   cairo_select_font_face(cairo(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          weight == Weight::Bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);

@@ -40,6 +40,21 @@ class Canvas {
   void stroke_path(std::span<const Point2> points, Colour colour, double line_width);
   void disc(Point2 centre, double radius, Colour colour);
   void ring(Point2 centre, double radius, Colour colour, double line_width);
+  /// Collects polygons; `fill` fills them all at once, so that no seam shows between neighbours.
+  void add_polygon(std::span<const Point2> corners);
+  void fill(Colour colour);
+
+  /// While it lives, nothing is drawn outside a box.
+  class Clip {
+   public:
+    Clip(Canvas& canvas, double left, double top, double width, double height);
+    ~Clip();
+    Clip(const Clip&) = delete;
+    Clip& operator=(const Clip&) = delete;
+
+   private:
+    Canvas& canvas_;
+  };
 
   void set_font(double size, Weight weight) const;
   [[nodiscard]] double text_width(const std::string& text) const;

@@ -37,14 +37,18 @@ PictureFormat parse_picture_extension(const std::string& extension) {
               "'" + extension + "' is no extension of a picture; known are .png, .svg and .pdf");
 }
 
-void check_scene(const PictureScene& scene) {
+void check_width(int width_px) {
   constexpr int kNarrowest = 400;
   constexpr int kWidest = 8000;
-  if (scene.width_px < kNarrowest || scene.width_px > kWidest) {
-    throw Error(ErrorCode::Usage, "a picture of " + std::to_string(scene.width_px) +
+  if (width_px < kNarrowest || width_px > kWidest) {
+    throw Error(ErrorCode::Usage, "a picture of " + std::to_string(width_px) +
                                       " pixels' width; it can be from " + std::to_string(kNarrowest) +
                                       " to " + std::to_string(kWidest));
   }
+}
+
+void check_scene(const PictureScene& scene) {
+  check_width(scene.width_px);
   if (scene.tin.triangle_count() == 0)
     throw Error(ErrorCode::EmptyInput, "a TIN without triangles has no picture");
   const std::size_t vertices = scene.tin.vertex_count();

@@ -14,7 +14,10 @@ enum class PictureFormat : std::uint8_t { Png, Svg, Pdf };
 /// Throws: Error{Usage} for an extension that is none of a picture.
 PictureFormat parse_picture_extension(const std::string& extension);
 
-/// Throws: Error{Usage} for a width outside 400 to 8000; Error{EmptyInput} for a TIN without triangles;
+/// Throws: Error{Usage} for a width outside 400 to 8000.
+void check_width(int width_px);
+
+/// Throws: Error{Usage} as check_width; Error{EmptyInput} for a TIN without triangles;
 /// Error{Internal} for spans that do not fit it.
 void check_scene(const PictureScene& scene);
 

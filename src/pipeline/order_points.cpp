@@ -1,5 +1,6 @@
 // Constrained orders on request: read, triangulate, then ask module order.
 #include "pipeline/order_lists.hpp"
+#include "pipeline/order_picture.hpp"
 #include "pipeline/plane_survey.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -48,6 +49,14 @@ TriangleOrders ask(const ConstrainedOrder& orders, const std::array<std::uint32_
   return answer;
 }
 
+void check_picture(const OrderConfig& config) {
+  if (config.picture_path.empty() || config.triangles.size() == 1) return;
+  const std::string what = "--picture " + config.picture_path + " shows one triangle, and ";
+  if (config.triangles.empty()) throw Error(ErrorCode::Usage, what + "there is no --triangle A,B,C");
+  throw Error(ErrorCode::Usage, fmt::format("{}--triangle was given {} times; draw each in a run of its own",
+                                            what, config.triangles.size()));
+}
+
 void write_list(const std::string& path, const std::string& target, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
   file.write(text.data(), static_cast<std::streamsize>(text.size()));
@@ -91,6 +100,7 @@ nlohmann::ordered_json answer_json(const TriangleOrders& answer) {
 }  // namespace
 
 OrderResult order_points(const OrderConfig& config, Progress& progress) {
+  check_picture(config);
   PendingOutputs outputs;
   const auto reserve = [&](const std::string& path) {
     return path.empty() ? std::string()
@@ -99,6 +109,7 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   const std::string triangles_file = reserve(config.triangles_path);
   const std::string edges_file = reserve(config.edges_path);
   const std::string quadrilaterals_file = reserve(config.quadrilaterals_path);
+  const std::string picture_file = reserve(config.picture_path);
   progress.start_phase("read");
   PlaneSurvey survey = read_into_plane(config.points, config.lines, config.read, progress).survey;
   progress.start_phase("triangulate");
@@ -113,6 +124,7 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   const ConstrainedOrder orders(ground.tin, ground.mode);
   OrderWorkspace workspace;
   for (const auto& corners : config.triangles) result.asked.push_back(ask(orders, corners, workspace));
+  if (!picture_file.empty()) draw_answer(orders, result.asked.front(), picture_file, config.picture_path);
   if (!triangles_file.empty() || !edges_file.empty()) {
     std::vector<OrderTriangle> triangles = find_order_triangles(
         orders, {.definition = config.definition, .max_order = config.max_order}, progress);

@@ -79,6 +79,9 @@ void add_order_command(CLI::App& app) {
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option(
+      "--picture", a->config.picture_path,
+      "picture of the triangle, which vertices count under each definition: .png, .svg, .pdf");
   command->add_option("--definition", a->definition, "which constrained order (default: sees-opp)");
   command->add_option("--order", a->order, "largest order of what is listed and counted (default: 1)");
   command->add_option("--list-triangles", a->config.triangles_path,

@@ -28,6 +28,7 @@ struct OrderConfig {
   std::string triangles_path;       ///< CSV a,b,c,order of all valid triangles; empty: none
   std::string edges_path;           ///< CSV a,b,order of all useful edges; empty: none
   std::string quadrilaterals_path;  ///< CSV s,u,t,v,delaunay; empty: none
+  std::string picture_path;         ///< .png, .svg or .pdf of the one triangle; empty: none
   bool census = false;              ///< count triangles and useful edges under every definition
   bool overwrite = false;
 };
@@ -62,7 +63,8 @@ struct OrderResult {
 };
 
 /// Triangulates the sources and answers. Ids are those of the ground: points in file order, a duplicate with
-/// its first, then line vertices, then crossings. Throws: Error{Usage} for an id out of range or repeated;
+/// its first, then line vertices, then crossings. Throws: Error{Usage} for an id out of range or repeated,
+/// or a picture without exactly one triangle;
 /// {SizeLimit} if a list has no method for so many vertices; what reading and triangulating throw.
 OrderResult order_points(const OrderConfig& config, Progress& progress);
 
