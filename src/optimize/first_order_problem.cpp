@@ -13,9 +13,7 @@
 
 namespace thalweg {
 
-namespace {
-
-void check(const Tin& tin, const OptimizeOptions& options) {
+void check_options(const Tin& tin, const OptimizeOptions& options) {
   for (auto here = options.criteria.begin(); here != options.criteria.end(); ++here) {
     if (std::find(options.criteria.begin(), here, *here) == here) continue;
     throw Error(ErrorCode::Usage, "criterion " + here->name() + " is given twice; name each once");
@@ -39,8 +37,6 @@ void check(const Tin& tin, const OptimizeOptions& options) {
                                         " edges; fewer than 268435456 can be optimised: split the area");
 }
 
-}  // namespace
-
 std::size_t count_levels(std::span<const Objective> criteria) {
   constexpr std::size_t kMost = 4;
   std::size_t sums = 0;
@@ -56,7 +52,7 @@ std::size_t count_levels(std::span<const Objective> criteria) {
 template <std::size_t Criteria>
 FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                           const OptimizeOptions& options, Progress& progress) {
-  check(tin, options);
+  check_options(tin, options);
   FirstOrderProblem<Criteria> problem;
   for (const Objective& objective : options.criteria) {
     if (objective.is(Criterion::LocalMinima)) {

@@ -30,6 +30,10 @@ struct FirstOrderProblem {
   PlateauGraph plateaus;             ///< if pits are counted
 };
 
+/// Throws: Error{Usage} for a criterion given twice, a unit that is not positive, a width limit out of range;
+/// {SizeLimit} from 2^28 edges on.
+void check_options(const Tin& tin, const OptimizeOptions& options);
+
 /// Levels of costs that the criteria need: 1, 2 or 4. Throws: Error{Usage} if that is not enough.
 std::size_t count_levels(std::span<const Objective> criteria);
 

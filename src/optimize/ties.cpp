@@ -24,6 +24,11 @@ std::uint64_t splitmix64(std::uint64_t x) {
 
 }  // namespace
 
+std::int64_t tie_of(std::uint64_t rank, std::size_t count) {
+  const int bits = 62 - static_cast<int>(std::bit_width(count));
+  return static_cast<std::int64_t>(splitmix64(rank) >> (64 - bits));
+}
+
 template <std::size_t Criteria>
 std::vector<std::uint32_t> add_flips_and_ties(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                               std::vector<Cost<Criteria>>& unary, const Progress& progress) {
@@ -52,14 +57,13 @@ std::vector<std::uint32_t> add_flips_and_ties(const Tin& tin, std::span<const Qu
     return a.quadrilateral != b.quadrilateral &&
            sorted_corners(a.quadrilateral) < sorted_corners(b.quadrilateral);
   });
-  const int bits = 62 - static_cast<int>(std::bit_width(count));
   std::vector<std::uint32_t> rank(count);
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       const std::uint32_t q = keys[r].quadrilateral;
       rank[q] = static_cast<std::uint32_t>(r);
       unary[q].level[Criteria] = 1;
-      unary[q].level[Criteria + 1] = static_cast<std::int64_t>(splitmix64(r) >> (64 - bits));
+      unary[q].level[Criteria + 1] = tie_of(r, count);
     }
   });
   return rank;

@@ -1,0 +1,47 @@
+#pragma once
+
+/// The best triangulation among those of a higher order: a triangulation is chosen in each face.
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/tin.hpp>
+#include <thalweg/optimize/optimize.hpp>
+#include <thalweg/order/fixed_faces.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace thalweg {
+
+struct FaceOptimizeOptions {
+  OptimizeOptions common;
+  /// Largest number of triangulations of one face that are listed.
+  std::size_t most_triangulations = 20'000;
+};
+
+struct FaceOptimizeResult {
+  std::vector<OrderTriangle> triangles;   ///< the result, sorted
+  std::vector<CriterionResult> criteria;  ///< as the options' criteria
+  std::size_t faces = 0;
+  std::size_t largest_face = 0;  ///< triangles
+  std::size_t labels = 0;        ///< triangulations of all faces, those that look alike from outside once
+  std::size_t most_labels = 0;   ///< of one face
+  std::size_t new_edges = 0;     ///< that the given TIN does not have
+  std::size_t fixed_by_elimination = 0;  ///< variables: faces, and what counts pits
+  std::size_t pieces = 0;
+  std::size_t largest_piece = 0;  ///< variables
+  std::size_t width = 0;          ///< the largest table has up to 2^width entries
+};
+
+/// Chooses a triangulation of each face: criteria first, then fewest edges that the given TIN does not have,
+/// then a rule on coordinates alone, so that the result is one triangulation, whatever the order of the input
+/// or the number of threads. `bound` and `optimal` of each criterion as for optimize_first_order, over all
+/// triangulations that the faces leave.
+///
+/// Pre: `delaunay` is the constrained Delaunay triangulation on the surface for which the faces were found.
+/// Throws: Error{Usage} as optimize_first_order; {Unsupported} for a criterion whose terms are neither of
+/// triangles nor of edges; {SizeLimit} if a face has more triangulations than the options allow; {Cancelled}.
+/// Complexity: triangulations of all faces; then linear but for pieces that stay wide. Runs on all threads.
+FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
+                                  const FaceOptimizeOptions& options, Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,329 @@
+// Faces, pairs, outlets.
+//
+// 1. Each face's labels and their costs: face_terms.cpp. Two faces are coupled at each fixed edge between
+//    them, by the term of the two triangles there.
+// 2. Pits. A node is no pit if it can be followed along links to node 0: each node names one link, of a face,
+//    as its outlet; a variable says which. If the face's label does not have the link, that costs a pit. So
+//    the sum is least when as many nodes as can be have an outlet. For one choice of labels it is the number
+//    of components without node 0, if outlets do not go in circles: two nodes that name each other cost a
+//    pit; and for each larger set that turned out to be closed, a variable names one of its nodes, which
+//    costs a pit if its outlet stays in the set. Without all such sets the sum is a bound.
+#include "optimize/face_network.hpp"
+
+#include "base/parallel.hpp"
+
+#include <thalweg/base/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::size_t kFaces = 64;
+constexpr std::size_t kSides = 4096;
+
+/// A link as an outlet of one of its nodes.
+struct Outlet {
+  std::uint32_t node = 0;
+  std::uint32_t target = 0;
+  std::uint32_t face = 0;
+  std::uint32_t link = 0;  ///< of the face
+  auto operator<=>(const Outlet&) const = default;
+};
+
+template <std::size_t Criteria>
+class Builder {
+ public:
+  Builder(const FaceTerms<Criteria>& terms, std::span<const FaceTriangulations> lists,
+          const Progress& progress)
+      : terms_(terms), lists_(lists), progress_(progress) {}
+
+  FaceNetwork<Criteria> run(PlateauNodes* pits, std::size_t pit_level, std::span<const PlateauSet> closed) {
+    label_faces(pits);
+    couple_faces();
+    if (pits != nullptr) {
+      pit_level_ = pit_level;
+      count_pits(*pits, closed);
+    }
+    refuse_overflow();
+    return std::move(out_);
+  }
+
+ private:
+  void label_faces(PlateauNodes* pits) {
+    std::vector<PlateauLink> links;
+    if (pits != nullptr) {
+      for (std::uint32_t e = 0; e < terms_.faces.edges.size(); ++e) links.push_back(pits->link_of(e));
+    }
+    out_.faces.resize(lists_.size());
+    for_each_block(lists_.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) out_.faces[f] = label_face(terms_, links, f, lists_[f]);
+    });
+    LabelNetwork<Criteria>& network = out_.network;
+    for (const FaceLabels<Criteria>& labels : out_.faces) {
+      network.unary.insert(network.unary.end(), labels.unary.begin(), labels.unary.end());
+      network.first_label.push_back(static_cast<std::uint32_t>(network.unary.size()));
+    }
+  }
+
+  std::size_t add_classes(std::span<const std::uint16_t> classes) {
+    const std::size_t first = out_.network.classes.size();
+    out_.network.classes.insert(out_.network.classes.end(), classes.begin(), classes.end());
+    return first;
+  }
+
+  [[nodiscard]] std::span<const std::uint16_t> column(std::uint32_t face, std::uint32_t side) const {
+    const FaceLabels<Criteria>& labels = out_.faces[face];
+    const auto at = std::lower_bound(labels.side.begin(), labels.side.end(), side);
+    return labels.at_side[static_cast<std::size_t>(at - labels.side.begin())];
+  }
+
+  void couple_faces() {
+    LabelNetwork<Criteria>& network = out_.network;
+    std::vector<std::uint32_t> between;  // edges
+    for (std::uint32_t e = 0; e < terms_.faces.edges.size(); ++e) {
+      const std::uint32_t left = terms_.sides.owner[2 * e], right = terms_.sides.owner[2 * e + 1];
+      if (left == right || left == FaceSides::kNoFace || right == FaceSides::kNoFace) continue;
+      const auto of_left = terms_.sides.triangles.row(2 * e),
+                 of_right = terms_.sides.triangles.row(2 * e + 1);
+      PairTerm pair{.a = left, .b = right};
+      pair.class_a = add_classes(column(left, 2 * e));
+      pair.class_b = add_classes(column(right, 2 * e + 1));
+      pair.classes_a = static_cast<std::uint16_t>(of_left.size());
+      pair.classes_b = static_cast<std::uint16_t>(of_right.size());
+      pair.weight = network.weights.size();
+      network.weights.resize(network.weights.size() + of_left.size() * of_right.size());
+      network.pairs.push_back(pair);
+      between.push_back(e);
+    }
+    for_each_block(between.size(), kSides, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) weigh(between[i], network.pairs[i]);
+    });
+  }
+
+  void weigh(std::uint32_t e, const PairTerm& pair) {
+    std::vector<Face> right;
+    for (const std::uint32_t t : terms_.sides.triangles.row(2 * e + 1)) {
+      right.push_back(face_of(terms_.tin, terms_.faces, t, terms_.scale));
+    }
+    std::size_t at = pair.weight;
+    for (const std::uint32_t t : terms_.sides.triangles.row(2 * e)) {
+      const Face left = face_of(terms_.tin, terms_.faces, t, terms_.scale);
+      for (const Face& other : right) out_.network.weights[at++] = terms_.of(left, other);
+    }
+  }
+
+  // Outlets of each node, and a variable for each node that has any.
+  void count_pits(PlateauNodes& pits, std::span<const PlateauSet> closed) {
+    for (std::uint32_t f = 0; f < out_.faces.size(); ++f) {
+      for (std::uint32_t l = 0; l < out_.faces[f].link.size(); ++l) {
+        const auto& [a, b] = out_.faces[f].link[l];
+        outlets_.push_back({a, b, f, l});
+        if (b != 0) outlets_.push_back({b, a, f, l});
+      }
+    }
+    std::sort(outlets_.begin(), outlets_.end(), [](const Outlet& x, const Outlet& y) {
+      return std::tuple(x.node, x.face, x.link, x.target) < std::tuple(y.node, y.face, y.link, y.target);
+    });
+    const std::uint32_t nodes = pits.node_count;
+    variable_.assign(nodes, kNoVariable);
+    first_outlet_.assign(nodes + 1, 0);
+    for (const Outlet& outlet : outlets_) ++first_outlet_[outlet.node + 1];
+    for (std::uint32_t n = 0; n < nodes; ++n) first_outlet_[n + 1] += first_outlet_[n];
+    for (std::uint32_t n = 1; n < nodes; ++n) {
+      if (pits.sets.find(n) != n) continue;
+      if (first_outlet_[n] == first_outlet_[n + 1]) {
+        ++out_.sure_pits;
+      } else {
+        add_outlets(n);
+      }
+    }
+    for (std::uint32_t n = 1; n < nodes; ++n) forbid_mutual(n);
+    for (const PlateauSet& set : closed) open_set(set);
+  }
+
+  [[nodiscard]] std::span<const Outlet> outlets(std::uint32_t node) const {
+    return std::span(outlets_).subspan(first_outlet_[node], first_outlet_[node + 1] - first_outlet_[node]);
+  }
+
+  std::uint32_t add_variable(std::size_t labels) {
+    out_.network.unary.resize(out_.network.unary.size() + labels);
+    out_.network.first_label.push_back(static_cast<std::uint32_t>(out_.network.unary.size()));
+    return static_cast<std::uint32_t>(out_.network.size() - 1);
+  }
+
+  // Labels: the outlets, in order; then, where two nodes may name each other, none, at the cost of a pit.
+  void add_outlets(std::uint32_t node) {
+    const auto list = outlets(node);
+    const bool level = std::any_of(list.begin(), list.end(), [](const Outlet& o) { return o.target != 0; });
+    const std::size_t labels = list.size() + (level ? 1 : 0);
+    variable_[node] = add_variable(labels);
+    if (level) out_.network.unary.back().level[pit_level_] = 1;
+    for (std::size_t begin = 0; begin < list.size();) {
+      std::size_t end = begin;
+      while (end < list.size() && list[end].face == list[begin].face) ++end;
+      couple_outlets(variable_[node], labels, list, begin, end);
+      begin = end;
+    }
+  }
+
+  // The outlets begin to end of a node are of one face.
+  void couple_outlets(std::uint32_t variable, std::size_t labels, std::span<const Outlet> list,
+                      std::size_t begin, std::size_t end) {
+    LabelNetwork<Criteria>& network = out_.network;
+    const FaceLabels<Criteria>& face = out_.faces[list[begin].face];
+    std::vector<std::uint16_t> named(labels, 0), joined;
+    for (std::size_t i = begin; i < end; ++i) named[i] = static_cast<std::uint16_t>(i - begin + 1);
+    std::map<std::vector<std::uint8_t>, std::uint16_t> patterns;
+    std::vector<std::vector<std::uint8_t>> pattern;  // by class
+    for (std::size_t label = 0; label < face.unary.size(); ++label) {
+      std::vector<std::uint8_t> joins;
+      for (std::size_t i = begin; i < end; ++i) joins.push_back(face.joins[list[i].link][label]);
+      const auto [at, fresh] = patterns.try_emplace(joins, static_cast<std::uint16_t>(pattern.size()));
+      if (fresh) pattern.push_back(joins);
+      joined.push_back(at->second);
+    }
+    PairTerm pair{.a = variable, .b = list[begin].face};
+    pair.class_a = add_classes(named);
+    pair.class_b = add_classes(joined);
+    pair.classes_a = static_cast<std::uint16_t>(end - begin + 1);
+    pair.classes_b = static_cast<std::uint16_t>(pattern.size());
+    pair.weight = network.weights.size();
+    network.weights.resize(network.weights.size() + pattern.size());
+    for (std::size_t i = 0; i < end - begin; ++i) {
+      for (const auto& joins : pattern) {
+        network.weights.emplace_back();
+        network.weights.back()[pit_level_] = joins[i] != 0 ? 0 : 1;
+      }
+    }
+    network.pairs.push_back(pair);
+  }
+
+  // By label of the node's variable: 1 if its outlet leads to one of the targets.
+  template <class IsTarget>
+  [[nodiscard]] std::vector<std::uint16_t> leading_to(std::uint32_t node, const IsTarget& is_target) const {
+    std::vector<std::uint16_t> leads(out_.network.label_count(variable_[node]), 0);
+    const auto list = outlets(node);
+    for (std::size_t i = 0; i < list.size(); ++i) leads[i] = is_target(list[i].target) ? 1 : 0;
+    return leads;
+  }
+
+  void couple_pair(std::uint32_t a, std::span<const std::uint16_t> class_a, std::uint32_t b,
+                   std::span<const std::uint16_t> class_b) {
+    LabelNetwork<Criteria>& network = out_.network;
+    PairTerm pair{.a = a, .b = b, .classes_a = 2, .classes_b = 2};
+    pair.class_a = add_classes(class_a);
+    pair.class_b = add_classes(class_b);
+    pair.weight = network.weights.size();
+    network.weights.resize(network.weights.size() + 4);
+    network.weights.back()[pit_level_] = 1;
+    network.pairs.push_back(pair);
+  }
+
+  void forbid_mutual(std::uint32_t node) {
+    std::vector<std::uint32_t> targets;
+    for (const Outlet& outlet : outlets(node)) {
+      if (outlet.target > node) targets.push_back(outlet.target);
+    }
+    std::sort(targets.begin(), targets.end());
+    targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
+    for (const std::uint32_t other : targets) {
+      couple_pair(variable_[node], leading_to(node, [&](std::uint32_t t) { return t == other; }),
+                  variable_[other], leading_to(other, [&](std::uint32_t t) { return t == node; }));
+    }
+  }
+
+  void open_set(const PlateauSet& set) {
+    const std::uint32_t variable = add_variable(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      std::vector<std::uint16_t> named(set.size(), 0);
+      named[i] = 1;
+      couple_pair(variable, named, variable_[set[i]], leading_to(set[i], [&](std::uint32_t target) {
+                    return std::binary_search(set.begin(), set.end(), target);
+                  }));
+    }
+  }
+
+  void refuse_overflow() const {
+    for (std::size_t level = 0; level < Criteria; ++level) {
+      double most = 0;
+      for (const Cost<Criteria>& cost : out_.network.unary)
+        most += std::abs(static_cast<double>(cost.level[level]));
+      for (const Weight<Criteria>& weight : out_.network.weights)
+        most += std::abs(static_cast<double>(weight[level]));
+      if (most < 0x1p62) continue;
+      throw Error(
+          ErrorCode::SizeLimit,
+          "the values of criterion " + std::to_string(level + 1) +
+              " are too large to be added exactly; split the area, or scale it by a small weight, such "
+              "as 0.001*edge-length");
+    }
+  }
+
+  static constexpr std::uint32_t kNoVariable = 0xffffffffU;
+
+  const FaceTerms<Criteria>& terms_;
+  std::span<const FaceTriangulations> lists_;
+  const Progress& progress_;
+  std::size_t pit_level_ = 0;
+  FaceNetwork<Criteria> out_;
+  std::vector<Outlet> outlets_;            ///< by node and face
+  std::vector<std::size_t> first_outlet_;  ///< by node
+  std::vector<std::uint32_t> variable_;    ///< by node
+};
+
+}  // namespace
+
+template <std::size_t Criteria>
+FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms,
+                                    std::span<const FaceTriangulations> lists, PlateauNodes* pits,
+                                    std::size_t pit_level, std::span<const PlateauSet> closed,
+                                    const Progress& progress) {
+  return Builder<Criteria>(terms, lists, progress).run(pits, pit_level, closed);
+}
+
+void join_always(const FixedFaces& faces, std::span<const FaceTriangulations> lists, PlateauNodes& pits) {
+  std::vector<PlateauLink> here;
+  for (bool again = true; again;) {
+    again = false;
+    for (const FaceTriangulations& list : lists) {
+      std::map<PlateauLink, std::size_t> times;
+      for (std::size_t i = 0; i < list.count(); ++i) {
+        here.clear();
+        for (const std::uint32_t t : list[i]) {
+          for (const std::uint32_t side : faces.sides[t]) {
+            const PlateauLink link = pits.link_of(side / 2);
+            if (link.first != link.second) here.push_back(link);
+          }
+        }
+        std::sort(here.begin(), here.end());
+        here.erase(std::unique(here.begin(), here.end()), here.end());
+        if (i == 0) {
+          for (const PlateauLink& link : here) times[link] = 1;
+          if (times.empty()) break;
+        } else {
+          for (const PlateauLink& link : here) {
+            if (const auto at = times.find(link); at != times.end()) ++at->second;
+          }
+        }
+      }
+      for (const auto& [link, count] : times) {
+        if (count == list.count()) again = pits.sets.unite(link.first, link.second) || again;
+      }
+    }
+  }
+}
+
+template FaceNetwork<1> build_network(const FaceTerms<1>&, std::span<const FaceTriangulations>, PlateauNodes*,
+                                      std::size_t, std::span<const PlateauSet>, const Progress&);
+template FaceNetwork<2> build_network(const FaceTerms<2>&, std::span<const FaceTriangulations>, PlateauNodes*,
+                                      std::size_t, std::span<const PlateauSet>, const Progress&);
+template FaceNetwork<5> build_network(const FaceTerms<5>&, std::span<const FaceTriangulations>, PlateauNodes*,
+                                      std::size_t, std::span<const PlateauSet>, const Progress&);
+
+}  // namespace thalweg

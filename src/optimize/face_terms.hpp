@@ -1,0 +1,101 @@
+#pragma once
+
+/// Terms of criteria over candidate triangles, and what one face contributes to costs.
+
+#include "optimize/cost.hpp"
+#include "optimize/declaration.hpp"
+#include "optimize/face_pits.hpp"
+
+#include <thalweg/mesh/tin.hpp>
+#include <thalweg/optimize/criterion.hpp>
+#include <thalweg/order/fixed_faces.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+/// One level of costs: the parts of an objective, each term weighted and rounded; with a limit, the number of
+/// terms beyond it. No parts: terms cost nothing.
+struct TermLevel {
+  struct Part {
+    const Declaration* declaration = nullptr;
+    double factor = 1;  ///< weight, with its sign turned if the objective is maximised
+  };
+  std::vector<Part> parts;
+  std::optional<std::int64_t> limit;
+
+  [[nodiscard]] std::int64_t of(const Face& triangle, Scale scale) const;
+  [[nodiscard]] std::int64_t of(const Face& left, const Face& right, Scale scale) const;
+
+ private:
+  [[nodiscard]] std::int64_t measure(double value) const;
+};
+
+/// The level of an objective; without a limit also where it is an extreme: then for single terms only.
+TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit);
+
+/// Where the sides of candidate triangles lead.
+struct FaceSides {
+  std::vector<std::uint32_t> owner;  ///< by side: the face left of it, or kNoFace
+  std::vector<std::uint32_t> fixed;  ///< by side: the triangle left of it that is in no face, or kNoTriangle
+  Rows triangles;                    ///< by side: candidates left of it, ascending
+  std::vector<std::int64_t> tie;     ///< by edge: what it costs at the last level
+
+  static constexpr std::uint32_t kNoFace = 0xffffffffU;
+  static constexpr std::uint32_t kNoTriangle = 0xffffffffU;
+};
+
+/// Ties are by coordinates, as in ties.hpp. Complexity: sorting.
+FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& progress);
+
+/// A candidate triangle in space.
+inline Face face_of(const Tin& tin, const FixedFaces& faces, std::uint32_t triangle, Scale scale) {
+  const auto& [a, b, c] = faces.triangles[triangle].corners;
+  return make_face(corner_of(tin, a), corner_of(tin, b), corner_of(tin, c), scale);
+}
+
+/// What does not change from face to face.
+template <std::size_t Criteria>
+struct FaceTerms {
+  const Tin& tin;
+  const FixedFaces& faces;
+  const FaceSides& sides;
+  Scale scale;
+  std::array<TermLevel, Criteria> levels;
+
+  [[nodiscard]] Weight<Criteria> of(const Face& triangle) const {
+    Weight<Criteria> weight{};
+    for (std::size_t i = 0; i < Criteria; ++i) weight[i] = levels[i].of(triangle, scale);
+    return weight;
+  }
+  [[nodiscard]] Weight<Criteria> of(const Face& left, const Face& right) const {
+    Weight<Criteria> weight{};
+    for (std::size_t i = 0; i < Criteria; ++i) weight[i] = levels[i].of(left, right, scale);
+    return weight;
+  }
+};
+
+/// The labels of one face: triangulations that differ in what others see of them; of those that do not, the
+/// one of least cost.
+template <std::size_t Criteria>
+struct FaceLabels {
+  std::vector<std::uint32_t> triangulation;  ///< by label
+  std::vector<Cost<Criteria>> unary;         ///< by label
+  std::vector<std::uint32_t> side;           ///< sides beyond which there is another face, ascending
+  /// For each of these, for each label: which of the side's candidates it has.
+  std::vector<std::vector<std::uint16_t>> at_side;
+  std::vector<PlateauLink> link;                 ///< what some but not all labels join, ascending
+  std::vector<std::vector<std::uint8_t>> joins;  ///< for each of these, by label: 1 if it does
+};
+
+/// `links`: by candidate edge, as PlateauNodes::link_of; empty if pits are not counted.
+/// Complexity: triangles of all triangulations.
+template <std::size_t Criteria>
+FaceLabels<Criteria> label_face(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links,
+                                std::size_t face, const FaceTriangulations& list);
+
+}  // namespace thalweg

@@ -1,0 +1,357 @@
+// From faces to a network, and back.
+//
+// 1. The triangulations of each face are listed: its labels.
+// 2. Each criterion is a level of costs, local minima included (face_network.cpp). The network is solved
+//    (label_solver.cpp).
+// 3. Pits: if the choice leaves more than its costs tell, there are sets of plateaus whose outlets lead to
+// each
+//    other. Each of these is to have an outlet or to count, and the network is solved again. What is left
+//    then is a bound.
+// 4. An objective that is the worst of its terms: as in optimize_first_order.cpp, by bisection over limits.
+#include "base/parallel.hpp"
+#include "optimize/face_network.hpp"
+#include "optimize/first_order_problem.hpp"
+#include "optimize/label_solver.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/optimize/optimize_faces.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::size_t kFaces = 64;
+constexpr int kRounds = 30;
+/// A larger set of plateaus is not asked to have an outlet; what it hides stays a gap.
+constexpr std::size_t kLargestSet = 200;
+
+std::string method_name(const SolverFigures& figures) {
+  std::string name = "elimination";
+  if (figures.used_tables) name += " + dynamic programming";
+  if (figures.used_relaxation) name += " + mini-buckets and local search";
+  return name;
+}
+
+template <std::size_t Criteria>
+class FaceRun {
+ public:
+  /// The first `reported` criteria are those that were asked for.
+  FaceRun(const Tin& delaunay, const FixedFaces& faces, const FaceOptimizeOptions& options,
+          std::size_t reported, Progress& progress)
+      : delaunay_(delaunay),
+        faces_(faces),
+        criteria_(options.common.criteria),
+        reported_(reported),
+        scale_{options.common.horizontal_metres_per_unit, options.common.vertical_metres_per_unit},
+        limits_{options.common.width_limit, options.common.effort},
+        progress_(progress) {
+    progress_.start_phase("list triangulations");
+    list(options.most_triangulations);
+    sides_ = find_sides(delaunay, faces, progress);
+    for (std::size_t level = 0; level < criteria_.size(); ++level) {
+      if (!criteria_[level].is(Criterion::LocalMinima)) continue;
+      pit_level_ = level;
+      pits_ = find_plateau_nodes(delaunay, faces);
+      join_always(faces, lists_, *pits_);
+    }
+    progress_.advance(1);
+  }
+
+  FaceOptimizeResult run() {
+    progress_.start_phase("choose triangulations");
+    for (std::size_t level = 0; level < criteria_.size(); ++level) {
+      if (criteria_[level].is_extreme()) settle(level);
+    }
+    const Choice choice = solve_up_to(criteria_.size());
+    progress_.advance(1);
+    return report(choice);
+  }
+
+ private:
+  struct Choice {
+    std::vector<std::uint32_t> triangles;  ///< candidates, ascending
+    Cost<Criteria> value, bound;
+    std::int64_t sure_pits = 0;
+    SolverFigures figures;
+    std::size_t labels = 0, most_labels = 0;
+  };
+  /// An extreme, in steps as in sums.hpp.
+  struct Settled {
+    std::int64_t limit = 0, bound = 0;
+  };
+
+  void list(std::size_t most) {
+    lists_.resize(faces_.faces.size());
+    std::vector<std::uint8_t> too_many(lists_.size(), 0);
+    for_each_block(lists_.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        auto found = list_triangulations(faces_, f, {.most = most});
+        too_many[f] = found ? 0 : 1;
+        if (found) lists_[f] = std::move(*found);
+      }
+    });
+    const auto faces = static_cast<std::size_t>(std::count(too_many.begin(), too_many.end(), 1));
+    if (faces == 0) return;
+    const auto first =
+        static_cast<std::size_t>(std::find(too_many.begin(), too_many.end(), 1) - too_many.begin());
+    const Point2 at = delaunay_.point(faces_.triangles[faces_.faces.row(first)[0]].corners[0]);
+    throw Error(ErrorCode::SizeLimit,
+                std::to_string(faces) + " of " + std::to_string(lists_.size()) +
+                    " faces between fixed edges have more than " + std::to_string(most) +
+                    " triangulations of that order, the first at (" + std::to_string(at.x) + ", " +
+                    std::to_string(at.y) + "); take a smaller --order");
+  }
+
+  /// Solves the levels before `count`; those from it on cost nothing.
+  Choice solve_up_to(std::size_t count) {
+    FaceTerms<Criteria> terms{delaunay_, faces_, sides_, scale_, {}};
+    for (std::size_t level = 0; level < count; ++level) {
+      const Objective& objective = criteria_[level];
+      terms.levels[level] =
+          level_of(objective, objective.is_extreme() ? std::optional(settled_[level].limit) : std::nullopt);
+    }
+    PlateauNodes* const pits = pits_ && pit_level_ < count ? &*pits_ : nullptr;
+    std::vector<PlateauSet> closed;
+    for (int round = 0;; ++round) {
+      const FaceNetwork<Criteria> network = build_network(terms, lists_, pits, pit_level_, closed, progress_);
+      const NetworkSolution<Criteria> solution = solve(network.network, limits_, progress_);
+      if (pits == nullptr || round == kRounds || !find_closed(network, solution, closed)) {
+        return choice_of(network, solution);
+      }
+    }
+  }
+
+  /// Adds the sets of plateaus that the choice joins to each other only, and that count as no pit; false if
+  /// there is none that is new.
+  bool find_closed(const FaceNetwork<Criteria>& network, const NetworkSolution<Criteria>& solution,
+                   std::vector<PlateauSet>& closed) {
+    UnionFind joined(pits_->node_count);
+    for (std::size_t f = 0; f < network.faces.size(); ++f) {
+      const FaceLabels<Criteria>& face = network.faces[f];
+      for (std::size_t l = 0; l < face.link.size(); ++l) {
+        if (face.joins[l][solution.chosen[f]] != 0) joined.unite(face.link[l].first, face.link[l].second);
+      }
+    }
+    std::map<std::uint32_t, PlateauSet> sets;
+    for (std::uint32_t n = 1; n < pits_->node_count; ++n) {
+      if (pits_->sets.find(n) == n && joined.find(n) != 0) sets[joined.find(n)].push_back(n);
+    }
+    if (static_cast<std::int64_t>(sets.size()) == network.sure_pits + solution.value.level[pit_level_]) {
+      return false;
+    }
+    bool found = false;
+    for (auto& [first, set] : sets) {
+      if (set.size() < 3 || set.size() > kLargestSet) continue;
+      if (std::find(closed.begin(), closed.end(), set) != closed.end()) continue;
+      closed.push_back(std::move(set));
+      found = true;
+    }
+    return found;
+  }
+
+  Choice choice_of(const FaceNetwork<Criteria>& network, const NetworkSolution<Criteria>& solution) const {
+    Choice choice{{}, solution.value, solution.bound, network.sure_pits, solution.figures, 0, 0};
+    for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
+      const auto& sides = faces_.sides[t];
+      if (std::none_of(sides.begin(), sides.end(),
+                       [&](std::uint32_t s) { return faces_.edges[s / 2].free; })) {
+        choice.triangles.push_back(t);
+      }
+    }
+    for (std::size_t f = 0; f < lists_.size(); ++f) {
+      const FaceLabels<Criteria>& face = network.faces[f];
+      for (const std::uint32_t t : lists_[f][face.triangulation[solution.chosen[f]]])
+        choice.triangles.push_back(t);
+      choice.labels += face.unary.size();
+      choice.most_labels = std::max(choice.most_labels, face.unary.size());
+    }
+    std::sort(choice.triangles.begin(), choice.triangles.end());
+    return choice;
+  }
+
+  [[nodiscard]] Tin tin_of(const Choice& choice) const {
+    std::vector<Triangle> triangles;
+    for (const std::uint32_t t : choice.triangles) triangles.push_back(faces_.triangles[t].corners);
+    return {{delaunay_.points().begin(), delaunay_.points().end()},
+            {delaunay_.heights().begin(), delaunay_.heights().end()},
+            std::move(triangles),
+            delaunay_.constraint_edges()};
+  }
+
+  /// Value of an objective on a TIN, in steps, signs turned where it is maximised.
+  [[nodiscard]] WideSteps value_on(const Tin& tin, const Objective& objective) const {
+    const std::vector<std::uint32_t> owner(tin.triangle_count(), kNone);
+    const TermScan scan(tin, {}, owner, scale_);
+    Labelling<1> none;
+    if (objective.is(Criterion::LocalMinima)) return static_cast<WideSteps>(count_pits(tin));
+    if (objective.is_extreme()) return extreme_of(scan, objective, none.first, {}, progress_);
+    return add_objective(scan, objective, 0, none, progress_);
+  }
+
+  /// What terms of candidates may be, ascending, from the worst that no choice changes on.
+  [[nodiscard]] std::vector<std::int64_t> values_of(const Objective& objective) const {
+    const TermLevel level = level_of(objective, std::nullopt);
+    const bool of_triangles = level.parts.front().declaration->triangle != nullptr;
+    std::vector<std::int64_t> values;
+    std::int64_t least = std::numeric_limits<std::int64_t>::min();
+    const auto note = [&](std::int64_t value, bool fixed) {
+      values.push_back(value);
+      if (fixed) least = std::max(least, value);
+    };
+    std::vector<Face> corners;
+    for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
+      corners.push_back(face_of(delaunay_, faces_, t, scale_));
+      const auto& sides = faces_.sides[t];
+      const bool fixed = sides_.owner[sides[0]] == FaceSides::kNoFace;
+      if (of_triangles) note(level.of(corners.back(), scale_), fixed);
+    }
+    for (std::uint32_t e = 0; e < faces_.edges.size() && !of_triangles; ++e) {
+      if (e % 4096 == 0) progress_.check();
+      const bool fixed =
+          sides_.owner[2 * e] == FaceSides::kNoFace && sides_.owner[2 * e + 1] == FaceSides::kNoFace;
+      for (const std::uint32_t left : sides_.triangles.row(2 * e)) {
+        for (const std::uint32_t right : sides_.triangles.row(2 * e + 1)) {
+          note(level.of(corners[left], corners[right], scale_), fixed);
+        }
+      }
+    }
+    std::erase_if(values, [&](std::int64_t value) { return value < least; });
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }
+
+  static bool same_before(const Cost<Criteria>& a, const Cost<Criteria>& b, std::size_t level) {
+    return std::equal(a.level.begin(), a.level.begin() + level, b.level.begin());
+  }
+
+  /// Finds the least limit of an extreme that leaves the levels before it at their best.
+  void settle(std::size_t level) {
+    const Objective& objective = criteria_[level];
+    const std::vector<std::int64_t> values = values_of(objective);
+    Settled& settled = settled_[level];
+    if (values.empty()) return;
+    const Choice before = solve_up_to(level);
+    const auto worst = [&](const Choice& choice) {
+      return static_cast<std::int64_t>(value_on(tin_of(choice), objective));
+    };
+    std::int64_t reached = worst(before);
+    settled.bound = values.front();
+    auto low = values.begin();
+    auto high = std::lower_bound(low, values.end(), reached);
+    while (low < high) {
+      const auto middle = low + (high - low) / 2;
+      settled.limit = *middle;
+      const Choice trial = solve_up_to(level + 1);
+      if (same_before(trial.value, before.value, level) && trial.value.level[level] == 0) {
+        reached = worst(trial);
+        high = std::lower_bound(values.begin(), middle, reached);
+        continue;
+      }
+      const bool excluded = same_before(trial.bound, before.value, level) && trial.bound.level[level] > 0;
+      low = middle + 1;
+      if (excluded && low != values.end()) settled.bound = *low;
+    }
+    settled.limit = reached;
+  }
+
+  [[nodiscard]] FaceOptimizeResult report(const Choice& choice) const {
+    FaceOptimizeResult result;
+    result.faces = lists_.size();
+    for (const FaceTriangulations& list : lists_) {
+      result.largest_face = std::max<std::size_t>(result.largest_face, list.size);
+    }
+    result.labels = choice.labels;
+    result.most_labels = choice.most_labels;
+    result.new_edges = static_cast<std::size_t>(choice.value.level[Criteria]);
+    result.fixed_by_elimination = choice.figures.fixed_by_elimination;
+    result.pieces = choice.figures.pieces;
+    result.largest_piece = choice.figures.largest_piece;
+    result.width = choice.figures.width;
+    for (const std::uint32_t t : choice.triangles) result.triangles.push_back(faces_.triangles[t]);
+    const Tin tin = tin_of(choice);
+    bool proved = true;
+    for (std::size_t level = 0; level < reported_; ++level) {
+      result.criteria.push_back(describe(level, choice, tin));
+      proved = proved && result.criteria.back().optimal;
+      result.criteria.back().optimal = proved;
+    }
+    return result;
+  }
+
+  /// As in optimize_first_order: the bound of a level holds if all levels before have reached theirs.
+  [[nodiscard]] CriterionResult describe(std::size_t level, const Choice& choice, const Tin& tin) const {
+    const Objective& objective = criteria_[level];
+    const bool counts_pits = objective.is(Criterion::LocalMinima);
+    CriterionResult line;
+    line.name = objective.name();
+    line.unit = objective.unit();
+    line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
+    const WideSteps delaunay = value_on(delaunay_, objective), result = value_on(tin, objective);
+    WideSteps bound = result - (choice.value.level[level] - choice.bound.level[level]);
+    if (counts_pits) bound = choice.sure_pits + choice.bound.level[level];
+    if (objective.is_extreme()) bound = settled_[level].bound;
+    const double per_unit = counts_pits ? 1 : (line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit);
+    line.delaunay = static_cast<double>(delaunay) / per_unit;
+    line.result = static_cast<double>(result) / per_unit;
+    line.bound = static_cast<double>(bound) / per_unit;
+    line.optimal = result == bound;
+    line.method = method_name(choice.figures);
+    if (objective.is_extreme()) line.method = "bisection over limits by " + line.method;
+    if (counts_pits) line.method = "outlets by " + line.method;
+    return line;
+  }
+
+  const Tin& delaunay_;
+  const FixedFaces& faces_;
+  std::span<const Objective> criteria_;
+  std::size_t reported_;
+  Scale scale_;
+  SolverLimits limits_;
+  Progress& progress_;
+  std::vector<FaceTriangulations> lists_;  ///< by face
+  FaceSides sides_;
+  std::optional<PlateauNodes> pits_;
+  std::size_t pit_level_ = 0;
+  std::array<Settled, Criteria> settled_{};
+};
+
+void refuse_other_terms(const std::vector<Objective>& criteria) {
+  for (const Objective& objective : criteria) {
+    for (const Objective::Part& part : objective.parts) {
+      const Declaration& declaration = declaration_of(part.criterion);
+      const bool known = declaration.triangle != nullptr || declaration.edge != nullptr ||
+                         part.criterion == Criterion::LocalMinima;
+      if (known) continue;
+      throw Error(ErrorCode::Unsupported, "criterion " + std::string(declaration.traits.name) +
+                                              " cannot be optimised at orders above 1; take --order 1");
+    }
+  }
+}
+
+}  // namespace
+
+FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
+                                  const FaceOptimizeOptions& options, Progress& progress) {
+  check_options(delaunay, options.common);
+  refuse_other_terms(options.common.criteria);
+  FaceOptimizeOptions completed = options;
+  std::vector<Objective>& criteria = completed.common.criteria;
+  const std::size_t reported = criteria.size();
+  const bool open = !criteria.empty() && criteria.back().is_extreme() &&
+                    std::none_of(criteria.begin(), criteria.end(),
+                                 [](const Objective& o) { return o.is(Criterion::NormalAngleSum); });
+  if (open) criteria.emplace_back(Criterion::NormalAngleSum);
+  count_levels(criteria);
+  if (criteria.size() <= 1) return FaceRun<1>(delaunay, faces, completed, reported, progress).run();
+  if (criteria.size() == 2) return FaceRun<2>(delaunay, faces, completed, reported, progress).run();
+  return FaceRun<5>(delaunay, faces, completed, reported, progress).run();
+}
+
+}  // namespace thalweg

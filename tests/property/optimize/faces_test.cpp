@@ -1,0 +1,146 @@
+// The optimiser of higher orders on small scenes against all their triangulations, valued by plain code.
+#include "support/plain_criteria.hpp"
+
+#include <thalweg/optimize/optimize_faces.hpp>
+
+#include <gtest/gtest.h>
+#include <support/oracle/law_testing.hpp>
+#include <support/oracle/triangulations.hpp>
+#include <support/scene_tin.hpp>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace thalweg {
+namespace {
+
+using oracle::Oracle;
+using oracle::SceneOptions;
+
+constexpr SceneOptions kSmall{.fewest = 5, .most = 10, .constraints = 5};
+constexpr double kHorizontal = 2, kVertical = 0.5;
+constexpr test::Steps kTolerance =
+    64;  // steps: of a sum of some dozens of terms that plain code rounds otherwise
+
+Tin with_heights(const Tin& ground, std::vector<Triangle> triangles, const std::vector<double>& heights) {
+  return {{ground.points().begin(), ground.points().end()},
+          heights,
+          std::move(triangles),
+          ground.constraint_edges()};
+}
+
+std::vector<test::Steps> value_of(const Tin& tin, const std::vector<Criterion>& criteria) {
+  const test::PlainCriteria plain(tin, kHorizontal, kVertical);
+  std::vector<test::Steps> value;
+  for (const Criterion criterion : criteria)
+    value.push_back(plain.value(std::string(traits_of(criterion).name)));
+  return value;
+}
+
+/// Less at the first level at which they differ by more than rounding.
+bool better(const std::vector<test::Steps>& a, const std::vector<test::Steps>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::abs(a[i] - b[i]) > kTolerance) return a[i] < b[i];
+  }
+  return false;
+}
+
+struct Terrain {
+  Tin tin;                          ///< the Delaunay triangulation, with heights
+  std::vector<Tin> triangulations;  ///< all of the order
+  FixedFaces faces;
+};
+
+std::optional<Terrain> terrain_of(const Oracle& oracle, const oracle::Enumeration& all,
+                                  OrderDefinition definition, int k, const std::vector<double>& heights) {
+  const Tin ground = test::ground_of(oracle.scene());
+  Progress progress;
+  const ConstrainedOrder order(ground, test::mode_of(oracle.scene()));
+  auto faces = find_fixed_faces(
+      ground,
+      find_order_triangles(order, {.definition = definition, .max_order = static_cast<std::size_t>(k)},
+                           progress),
+      {}, progress);
+  if (!faces) return std::nullopt;
+  Terrain terrain{with_heights(ground, {ground.triangles().begin(), ground.triangles().end()}, heights),
+                  {},
+                  std::move(*faces)};
+  for (const std::size_t i : all.of_order(static_cast<oracle::Definition>(definition), k)) {
+    std::vector<Triangle> triangles;
+    for (const int t : all.members[i])
+      triangles.push_back(test::triangle(all.triangles[static_cast<std::size_t>(t)]));
+    terrain.triangulations.push_back(with_heights(ground, std::move(triangles), heights));
+  }
+  return terrain;
+}
+
+Tin tin_of(const Terrain& terrain, const FaceOptimizeResult& result) {
+  std::vector<Triangle> triangles;
+  for (const OrderTriangle& t : result.triangles) triangles.push_back(t.corners);
+  return with_heights(terrain.tin, std::move(triangles),
+                      {terrain.tin.heights().begin(), terrain.tin.heights().end()});
+}
+
+void expect_line(const CriterionResult& line, test::Steps delaunay, test::Steps result) {
+  const double sign = line.direction == "max" ? -1 : 1;
+  constexpr double kNear = static_cast<double>(kTolerance) / 0x1p32;
+  EXPECT_NEAR(line.delaunay, sign * static_cast<double>(delaunay) / 0x1p32, kNear) << line.name;
+  EXPECT_NEAR(line.result, sign * static_cast<double>(result) / 0x1p32, kNear) << line.name;
+  EXPECT_EQ(line.bound, line.result) << line.name;
+  EXPECT_TRUE(line.optimal) << line.name;
+}
+
+void check(const Terrain& terrain, const std::vector<Criterion>& criteria) {
+  Progress progress;
+  const FaceOptimizeResult result = optimize_faces(terrain.tin, terrain.faces,
+                                                   {.common = {.criteria = {criteria.begin(), criteria.end()},
+                                                               .horizontal_metres_per_unit = kHorizontal,
+                                                               .vertical_metres_per_unit = kVertical}},
+                                                   progress);
+  const Tin tin = tin_of(terrain, result);
+  const auto got = value_of(tin, criteria);
+  bool is_one_of_all = false;
+  for (const Tin& other : terrain.triangulations) {
+    ASSERT_FALSE(better(value_of(other, criteria), got));
+    is_one_of_all = is_one_of_all || std::ranges::equal(other.triangles(), tin.triangles());
+  }
+  ASSERT_TRUE(is_one_of_all);
+  const auto delaunay = value_of(terrain.tin, criteria);
+  for (std::size_t i = 0; i < criteria.size(); ++i) expect_line(result.criteria[i], delaunay[i], got[i]);
+}
+
+const std::vector<std::vector<Criterion>> kPriorities = {
+    {Criterion::LocalMinima},
+    {Criterion::NormalAngleSum},
+    {Criterion::NormalAngleMax},
+    {Criterion::EdgeLength},
+    {Criterion::MaxAngle},
+    {Criterion::LocalMinima, Criterion::NormalAngleSum},
+    {Criterion::NormalAngleSum, Criterion::LocalMinima},
+    {Criterion::LocalMinima, Criterion::NormalAngleMax, Criterion::EdgeLength},
+    {Criterion::ConvexEdges, Criterion::MinAngle, Criterion::LocalMinima},
+};
+
+TEST(OptimizeFaces, IsTheBestOfAll) {
+  int number = 0;
+  for_each_scene(oracle::kStreams, 30, kSmall, [&](const Oracle& oracle) {
+    oracle::Dice dice("optimize-faces-" + std::to_string(number++));
+    const int levels = dice.between(2, 7);
+    std::vector<double> heights;
+    for (int v = 0; v < oracle.scene().size(); ++v) heights.push_back(dice.between(0, levels - 1));
+    const oracle::Enumeration all = enumerate(oracle);
+    for (int k = 0; k <= 4; ++k) {
+      const auto definition = kOrderDefinitions[static_cast<std::size_t>(dice.between(0, 5))];
+      const auto terrain = terrain_of(oracle, all, definition, k, heights);
+      if (!terrain) continue;
+      for (const auto& criteria : kPriorities) {
+        ASSERT_NO_FATAL_FAILURE(check(*terrain, criteria)) << definition_name(definition) << " " << k;
+        ASSERT_FALSE(testing::Test::HasFailure()) << definition_name(definition) << " " << k;
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace thalweg
