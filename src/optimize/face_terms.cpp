@@ -24,8 +24,11 @@ std::int64_t TermLevel::measure(double value) const {
 std::int64_t TermLevel::of(const Face& triangle, Scale scale) const {
   std::int64_t sum = 0;
   for (const Part& part : parts) {
-    if (part.declaration->triangle == nullptr) continue;
-    sum += measure(part.factor * part.declaration->triangle(triangle, scale));
+    if (part.declaration->triangle != nullptr) {
+      sum += measure(part.factor * part.declaration->triangle(triangle, scale));
+    } else if (part.declaration->against_reference != nullptr) {
+      sum += measure(part.factor * part.declaration->against_reference(triangle, scale, *reference));
+    }
   }
   return sum;
 }
@@ -39,8 +42,9 @@ std::int64_t TermLevel::of(const Face& left, const Face& right, Scale scale) con
   return sum;
 }
 
-TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit) {
-  TermLevel level{.parts = {}, .limit = limit};
+TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit,
+                   const Reference* reference) {
+  TermLevel level{.parts = {}, .limit = limit, .reference = reference};
   if (objective.is(Criterion::LocalMinima)) return level;
   const double sign = objective.direction() == Direction::Maximise ? -1 : 1;
   for (const Objective::Part& part : objective.parts) {

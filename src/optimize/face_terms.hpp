@@ -27,6 +27,7 @@ struct TermLevel {
   };
   std::vector<Part> parts;
   std::optional<std::int64_t> limit;
+  const Reference* reference = nullptr;  ///< for terms that are measured against one
 
   [[nodiscard]] std::int64_t of(const Face& triangle, Scale scale) const;
   [[nodiscard]] std::int64_t of(const Face& left, const Face& right, Scale scale) const;
@@ -36,7 +37,7 @@ struct TermLevel {
 };
 
 /// The level of an objective; without a limit also where it is an extreme: then for single terms only.
-TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit);
+TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit, const Reference* reference);
 
 /// Where the sides of candidate triangles lead.
 struct FaceSides {

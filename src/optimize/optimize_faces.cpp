@@ -49,6 +49,7 @@ class FaceRun {
         criteria_(options.common.criteria),
         reported_(reported),
         scale_{options.common.horizontal_metres_per_unit, options.common.vertical_metres_per_unit},
+        reference_(options.common.reference),
         limits_{options.common.width_limit, options.common.effort},
         progress_(progress) {
     progress_.start_phase("list triangulations");
@@ -114,7 +115,8 @@ class FaceRun {
     for (std::size_t level = 0; level < count; ++level) {
       const Objective& objective = criteria_[level];
       terms.levels[level] =
-          level_of(objective, objective.is_extreme() ? std::optional(settled_[level].limit) : std::nullopt);
+          level_of(objective, objective.is_extreme() ? std::optional(settled_[level].limit) : std::nullopt,
+                   reference_);
     }
     PlateauNodes* const pits = pits_ && pit_level_ < count ? &*pits_ : nullptr;
     std::vector<PlateauSet> closed;
@@ -187,7 +189,7 @@ class FaceRun {
   /// Value of an objective on a TIN, in steps, signs turned where it is maximised.
   [[nodiscard]] WideSteps value_on(const Tin& tin, const Objective& objective) const {
     const std::vector<std::uint32_t> owner(tin.triangle_count(), kNone);
-    const TermScan scan(tin, {}, owner, scale_);
+    const TermScan scan(tin, {}, owner, scale_, reference_);
     Labelling<1> none;
     if (objective.is(Criterion::LocalMinima)) return static_cast<WideSteps>(count_pits(tin));
     if (objective.is_extreme()) return extreme_of(scan, objective, none.first, {}, progress_);
@@ -196,7 +198,7 @@ class FaceRun {
 
   /// What terms of candidates may be, ascending, from the worst that no choice changes on.
   [[nodiscard]] std::vector<std::int64_t> values_of(const Objective& objective) const {
-    const TermLevel level = level_of(objective, std::nullopt);
+    const TermLevel level = level_of(objective, std::nullopt, reference_);
     const bool of_triangles = level.parts.front().declaration->triangle != nullptr;
     std::vector<std::int64_t> values;
     std::int64_t least = std::numeric_limits<std::int64_t>::min();
@@ -313,6 +315,7 @@ class FaceRun {
   std::span<const Objective> criteria_;
   std::size_t reported_;
   Scale scale_;
+  const Reference* reference_;
   SolverLimits limits_;
   Progress& progress_;
   std::vector<FaceTriangulations> lists_;  ///< by face
@@ -327,7 +330,7 @@ void refuse_other_terms(const std::vector<Objective>& criteria) {
     for (const Objective::Part& part : objective.parts) {
       const Declaration& declaration = declaration_of(part.criterion);
       const bool known = declaration.triangle != nullptr || declaration.edge != nullptr ||
-                         part.criterion == Criterion::LocalMinima;
+                         declaration.against_reference != nullptr || part.criterion == Criterion::LocalMinima;
       if (known) continue;
       throw Error(ErrorCode::Unsupported, "criterion " + std::string(declaration.traits.name) +
                                               " cannot be optimised at orders above 1; take --order 1");

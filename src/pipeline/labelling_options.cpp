@@ -4,6 +4,7 @@
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 #include <string>
 
@@ -22,10 +23,15 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
 
 namespace {
 
+/// Orders are written as 16-bit numbers; faces become too large long before.
+constexpr unsigned kLargestOrder = 1000;
+
 unsigned parse_order(const std::string& text) {
-  if (text == "0") return 0;
-  if (text == "1") return 1;
-  throw Error(ErrorCode::Usage, "--order takes 0 or 1, not '" + text + "'; higher orders are not available");
+  unsigned order = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), order);
+  if (error == std::errc() && rest == text.data() + text.size() && order <= kLargestOrder) return order;
+  throw Error(ErrorCode::Usage, "--order takes a whole number from 0 to " + std::to_string(kLargestOrder) +
+                                    ", not '" + text + "'");
 }
 
 std::vector<Objective> parse_criteria(const std::string& text) {
@@ -51,11 +57,11 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   config.definition = parse_definition(arguments.definition);
   const bool overlapping =
       config.definition == OrderDefinition::Sees3vtx || config.definition == OrderDefinition::EmptyQuad;
-  if (overlapping && config.order > 0) {
+  if (overlapping && config.order == 1) {
     throw Error(ErrorCode::Unsupported,
                 "--definition " + arguments.definition +
                     ": its quadrilaterals overlap, and optimising over them is not "
-                    "available; take sees-opp or a stronger definition, or --order 0");
+                    "available; take sees-opp or a stronger definition, or another --order");
   }
   config.criteria = parse_criteria(arguments.optimize);
   if (arguments.effort > 0) config.effort = arguments.effort;

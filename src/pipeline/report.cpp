@@ -104,6 +104,31 @@ Json simplification_json(const ReportSimplification& s) {
           {"rms_error_m", pair(s.rms_error_m)}};
 }
 
+Json first_order_json(const ReportFirstOrder& first) {
+  return {{"definition", first.definition},
+          {"quadrilaterals", first.quadrilaterals},
+          {"flipped", first.flipped},
+          {"fixed_by_elimination", first.fixed_by_elimination},
+          {"pieces", first.pieces},
+          {"largest_piece", first.largest_piece},
+          {"width", first.width}};
+}
+
+Json higher_order_json(const ReportHigherOrder& higher) {
+  return {{"definition", higher.definition},
+          {"order", higher.order},
+          {"faces", higher.faces},
+          {"largest_face", higher.largest_face},
+          {"labels", higher.labels},
+          {"most_labels", higher.most_labels},
+          {"new_edges", higher.new_edges},
+          {"order_histogram", higher.order_histogram},
+          {"fixed_by_elimination", higher.fixed_by_elimination},
+          {"pieces", higher.pieces},
+          {"largest_piece", higher.largest_piece},
+          {"width", higher.width}};
+}
+
 Json pits_json(const ReportPits& pits) {
   return {{"interior", pits.interior}, {"boundary", pits.boundary}, {"lake", pits.lake}};
 }
@@ -128,14 +153,8 @@ std::string to_json(const Report& report) {
         {"vertical_metres_per_unit", report.crs.vertical_metres_per_unit}}},
       {"tin", tin_json(report.tin)},
       {"simplification", report.simplification ? simplification_json(*report.simplification) : Json(nullptr)},
-      {"first_order",
-       {{"definition", report.first_order.definition},
-        {"quadrilaterals", report.first_order.quadrilaterals},
-        {"flipped", report.first_order.flipped},
-        {"fixed_by_elimination", report.first_order.fixed_by_elimination},
-        {"pieces", report.first_order.pieces},
-        {"largest_piece", report.first_order.largest_piece},
-        {"width", report.first_order.width}}},
+      {"first_order", report.higher_order ? Json(nullptr) : first_order_json(report.first_order)},
+      {"higher_order", report.higher_order ? higher_order_json(*report.higher_order) : Json(nullptr)},
       {"arithmetic", "each term is rounded once to an integer multiple of 2^-32 of its unit; sums are exact"},
       {"criteria", criteria_json(report.criteria)},
       {"pits", {{"delaunay", pits_json(report.pits_delaunay)}, {"result", pits_json(report.pits_result)}}},
@@ -194,6 +213,21 @@ void add_rows(std::string& text, const Report& r) {
     count("diagonals barred", s.barred_diagonals);
     row("largest error, m", fmt::format("{:.4f}", s.largest_error_m[1]));
     row("rms error, m", fmt::format("{:.4f}", s.rms_error_m[1]));
+  }
+  if (r.higher_order) {
+    text += fmt::format("Structure at order {}\n", r.higher_order->order);
+    row("definition", r.higher_order->definition);
+    count("faces", r.higher_order->faces);
+    count("largest face, triangles", r.higher_order->largest_face);
+    count("labels", r.higher_order->labels);
+    count("most labels of a face", r.higher_order->most_labels);
+    count("new edges", r.higher_order->new_edges);
+    row("triangles by order", fmt::format("{}", fmt::join(r.higher_order->order_histogram, " ")));
+    count("fixed by elimination", r.higher_order->fixed_by_elimination);
+    count("pieces left", r.higher_order->pieces);
+    count("largest piece", r.higher_order->largest_piece);
+    count("width", r.higher_order->width);
+    return;
   }
   if (r.first_order.definition.empty()) return;
   text += "First-order structure\n";

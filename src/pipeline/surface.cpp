@@ -11,6 +11,7 @@
 #include "pipeline/surface.hpp"
 
 #include "pipeline/digest.hpp"
+#include "pipeline/higher_order.hpp"
 #include "pipeline/reference.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -209,13 +210,15 @@ struct Labelled {
   OptimizeResult result;
   Tin tin;
   std::vector<std::array<VertexId, 2>> new_diagonals;
-  std::size_t barred = 0;  ///< quadrilaterals whose other diagonal is too far from points left out
+  std::optional<ReportHigherOrder> higher_order;
+  std::vector<std::uint16_t> orders;  ///< by triangle, above order 1; else they follow from the new diagonals
+  std::size_t barred = 0;             ///< quadrilaterals whose other diagonal is too far from points left out
 };
 
 // Under Std constraint edges give the constrained Delaunay triangulation an order of its own, and up to 1 no
 // triangulation has a lower one: what is asked for may not exist.
 std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labelling, Progress& progress) {
-  if (labelling.definition != OrderDefinition::Std) return 0;
+  if (labelling.definition != OrderDefinition::Std || labelling.order > 1) return 0;
   const TinOrders orders =
       find_tin_orders(terrain.ground, {.definition = OrderDefinition::Std, .mode = terrain.mode}, progress);
   if (orders.max_order <= labelling.order) return orders.max_order;
@@ -233,6 +236,30 @@ std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labe
                   "; take a definition that knows of lines, such as pathcon or sees-opp");
 }
 
+void choose_first_order(Labelled& labelled, Progress& progress) {
+  labelled.result =
+      optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
+  std::vector<HalfedgeId> flips;
+  for (std::size_t q = 0; q < labelled.quadrilaterals.size(); ++q) {
+    if (labelled.result.flipped[q] == 0) continue;
+    flips.push_back(labelled.quadrilaterals[q].diagonal);
+    labelled.new_diagonals.push_back({labelled.quadrilaterals[q].s, labelled.quadrilaterals[q].t});
+  }
+  progress.check();
+  labelled.tin = flip_edges(labelled.delaunay, flips);
+}
+
+void choose_higher_order(Labelled& labelled, const FixedFaces& faces, const LabellingConfig& labelling,
+                         Progress& progress) {
+  HigherOrderChoice choice =
+      choose_triangulations(labelled.delaunay, faces, labelled.options, labelling, progress);
+  labelled.result.criteria = std::move(choice.criteria);
+  labelled.tin = std::move(choice.tin);
+  labelled.new_diagonals = std::move(choice.new_edges);
+  labelled.orders = std::move(choice.orders);
+  labelled.higher_order = std::move(choice.figures);
+}
+
 // Takes the ground out of the terrain.
 Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
                           Progress& progress) {
@@ -245,7 +272,7 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
 
   progress.start_phase("orders");
   labelled.delaunay_order = delaunay_order(terrain, run.labelling, progress);
-  if (run.labelling.order > 0) {
+  if (run.labelling.order == 1) {
     labelled.quadrilaterals = on_surface(
         find_quadrilaterals(terrain.ground, {.definition = run.labelling.definition, .mode = terrain.mode},
                             progress),
@@ -254,7 +281,14 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
     bar_diagonals(terrain.ground, terrain.left_out, terrain.error_limit, labelled.quadrilaterals, progress);
     labelled.barred -= labelled.quadrilaterals.size();
   }
-  labelled.delaunay = keep_triangles(std::move(terrain.ground), terrain.keep);
+  FixedFaces faces;
+  if (run.labelling.order > 1) {
+    labelled.delaunay = keep_triangles(terrain.ground, terrain.keep);
+    faces = find_surface_faces(terrain, labelled.delaunay, run.labelling, progress);
+    terrain.ground = {};
+  } else {
+    labelled.delaunay = keep_triangles(std::move(terrain.ground), terrain.keep);
+  }
   progress.advance(1);
   seconds.orders = run.watch.lap();
 
@@ -268,16 +302,11 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
     labelled.reference = std::make_unique<const Reference>(reference.points, reference.heights);
     labelled.options.reference = labelled.reference.get();
   }
-  labelled.result =
-      optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
-  std::vector<HalfedgeId> flips;
-  for (std::size_t q = 0; q < labelled.quadrilaterals.size(); ++q) {
-    if (labelled.result.flipped[q] == 0) continue;
-    flips.push_back(labelled.quadrilaterals[q].diagonal);
-    labelled.new_diagonals.push_back({labelled.quadrilaterals[q].s, labelled.quadrilaterals[q].t});
+  if (run.labelling.order > 1) {
+    choose_higher_order(labelled, faces, run.labelling, progress);
+  } else {
+    choose_first_order(labelled, progress);
   }
-  progress.check();
-  labelled.tin = flip_edges(labelled.delaunay, flips);
   progress.advance(1);
   seconds.optimize = run.watch.lap();
   return labelled;
@@ -290,10 +319,14 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   tin.vertices_left_out = report.tin.vertices_left_out;
   tin.angle_histogram_delaunay = measure(labelled.delaunay, run.plane.scale()).angle_histogram;
   tin.max_order = std::max<unsigned>(labelled.delaunay_order, labelled.new_diagonals.empty() ? 0 : 1);
+  if (labelled.higher_order) {
+    tin.max_order = *std::max_element(labelled.orders.begin(), labelled.orders.end());
+  }
   report.tin = tin;
   report.crs = describe_plane(run.plane, run.crs);
   report.digest = digest_of(labelled.tin, terrain.written);
   report.first_order = describe_structure(labelled.result, run.labelling);
+  report.higher_order = labelled.higher_order;
   if (report.simplification) {
     const double unit = run.plane.vertical_metres_per_unit();
     const SourceError delaunay = measure_error(labelled.delaunay, terrain.left_out);
@@ -331,9 +364,14 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, PitSummary before, PitSum
                             .is_pit = std::move(after.is_pit)},
                   .is_pit_before = std::move(before.is_pit),
                   .new_diagonals = std::move(labelled.new_diagonals)};
+  const bool higher_order = labelled.higher_order.has_value();
+  outcome.built.orders = std::move(labelled.orders);
   labelled.delaunay = {};
   labelled.quadrilaterals = {};
   if (const std::span<const VertexId> number = terrain.number; !number.empty()) {
+    if (higher_order) {
+      outcome.built.orders = renumbered_orders(outcome.built.tin, outcome.built.orders, terrain.number);
+    }
     outcome.built.tin = outcome.built.tin.renumbered(number, progress);
     outcome.built.written = renumbered<Point2>(outcome.built.written, number);
     outcome.built.vertex_source = renumbered<std::uint8_t>(outcome.built.vertex_source, number);
@@ -344,7 +382,7 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, PitSummary before, PitSum
     }
     std::sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
   }
-  outcome.built.orders = orders_of(outcome.built.tin, outcome.new_diagonals);
+  if (!higher_order) outcome.built.orders = orders_of(outcome.built.tin, outcome.new_diagonals);
   return outcome;
 }
 
@@ -354,6 +392,14 @@ void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
     throw Error(ErrorCode::Internal, "the optimiser counts " + std::to_string(c.result) +
                                          " pits, the TIN has " + std::to_string(pits.interior));
   }
+}
+
+void refuse_at_higher_order(const Terrain& terrain, const RunContext& run) {
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorCode::Unsupported, what + " is not available at orders above 1; take --order 1");
+  };
+  if (!run.outputs.problem.empty()) refuse("--dump-problem");
+  if (!terrain.left_out.xy.empty()) refuse("simplification");
 }
 
 void write_problem(const Labelled& labelled, const RunContext& run, Progress& progress) {
@@ -397,6 +443,7 @@ void write_tin_of(const BuiltTin& built, const OutputConfig& output, PendingOutp
 }
 
 void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progress& progress) {
+  if (run.labelling.order > 1) refuse_at_higher_order(terrain, run);
   Report& report = built.report;
   Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
 

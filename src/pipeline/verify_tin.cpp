@@ -80,7 +80,7 @@ verify::Claims read_claims(const Json& report) {
 unsigned order_of(const Json& report) {
   const auto order = read<unsigned>(report, "/tin/max_order").value_or(1);
   const bool first_order = read<std::size_t>(report, "/first_order/quadrilaterals").value_or(0) > 0;
-  return std::max(order, first_order ? 1U : 0U);
+  return std::max({order, first_order ? 1U : 0U, read<unsigned>(report, "/higher_order/order").value_or(0)});
 }
 
 /// What the report says of the sources.
@@ -164,7 +164,8 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
                             .vertical_metres_per_unit = plane.vertical_metres_per_unit()};
     if (report) {
       subject.order = order_of(*report);
-      const auto name = read<std::string>(*report, "/first_order/definition");
+      auto name = read<std::string>(*report, "/first_order/definition");
+      if (!name) name = read<std::string>(*report, "/higher_order/definition");
       if (name && !name->empty()) subject.definition = parse_definition(*name);
     }
     if (config.order) subject.order = *config.order;

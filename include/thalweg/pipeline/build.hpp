@@ -32,7 +32,7 @@ struct OutputConfig {
 
 /// How the triangulation is chosen.
 struct LabellingConfig {
-  unsigned order = 1;  ///< 0 or 1
+  unsigned order = 1;  ///< largest order of a triangle
   OrderDefinition definition = OrderDefinition::SeesOpp;
   std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own

@@ -73,6 +73,22 @@ struct ReportFirstOrder {
   std::size_t width = 0;
 };
 
+/// The structure of a run at an order above 1.
+struct ReportHigherOrder {
+  std::string definition;
+  unsigned order = 0;
+  std::size_t faces = 0;         ///< between fixed edges, those with a choice
+  std::size_t largest_face = 0;  ///< triangles
+  std::size_t labels = 0;        ///< triangulations of all faces, those that look alike from outside once
+  std::size_t most_labels = 0;   ///< of one face
+  std::size_t new_edges = 0;     ///< of the result, that the Delaunay triangulation does not have
+  std::vector<std::size_t> order_histogram;  ///< triangles of order 0, 1, ...
+  std::size_t fixed_by_elimination = 0;      ///< faces, and variables that count pits
+  std::size_t pieces = 0;
+  std::size_t largest_piece = 0;
+  std::size_t width = 0;  ///< the largest table has up to 2^width entries
+};
+
 struct ReportCriterion {
   std::string name;
   std::string unit;
@@ -111,7 +127,8 @@ struct Report {
   ReportCrs crs;
   ReportTin tin;
   std::optional<ReportSimplification> simplification;
-  ReportFirstOrder first_order;
+  ReportFirstOrder first_order;                   ///< of orders 0 and 1
+  std::optional<ReportHigherOrder> higher_order;  ///< of orders above 1
   std::vector<ReportCriterion> criteria;
   ReportPits pits_delaunay;
   ReportPits pits_result;

@@ -1,0 +1,39 @@
+#pragma once
+
+/// The choice of a triangulation at orders above 1, between the ground and the files.
+
+#include "pipeline/surface.hpp"
+
+#include <thalweg/optimize/optimize_faces.hpp>
+#include <thalweg/order/fixed_faces.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace thalweg {
+
+/// The faces of the surface, from the orders of triangles on the whole ground. `surface`: the kept triangles.
+/// Throws: Error{Unsupported} if no triangulation has an order that low, as can be under Std; {SizeLimit};
+/// {Cancelled}.
+FixedFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const LabellingConfig& labelling,
+                              Progress& progress);
+
+struct HigherOrderChoice {
+  Tin tin;
+  std::vector<std::uint16_t> orders;               ///< by triangle of `tin`
+  std::vector<std::array<VertexId, 2>> new_edges;  ///< that the Delaunay triangulation does not have
+  std::vector<CriterionResult> criteria;
+  ReportHigherOrder figures;
+};
+
+/// Throws: as optimize_faces.
+HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& faces,
+                                        const OptimizeOptions& options, const LabellingConfig& labelling,
+                                        Progress& progress);
+
+/// Orders of the triangles of a TIN as those of the same TIN with other ids. Complexity: n log n.
+std::vector<std::uint16_t> renumbered_orders(const Tin& tin, const std::vector<std::uint16_t>& orders,
+                                             const std::vector<VertexId>& number);
+
+}  // namespace thalweg
