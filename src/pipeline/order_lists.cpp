@@ -73,6 +73,15 @@ std::string quadrilateral_list(std::span<const Quadrilateral> quadrilaterals) {
   return text;
 }
 
+std::string conflict_list(std::span<const EdgeConflict> conflicts) {
+  std::string text = "a,b,c,d,crossing\n";
+  for (const EdgeConflict& pair : conflicts) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{}\n", pair.a.value(), pair.b.value(),
+                   pair.c.value(), pair.d.value(), pair.crossing ? 1 : 0);
+  }
+  return text;
+}
+
 void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& progress) {
   const std::size_t count = result.max_order + 1;
   for (std::size_t d = 0; d < kOrderDefinitions.size(); ++d) {

@@ -2,6 +2,7 @@
 
 /// What `order` lists, as CSV, and its census.
 
+#include <thalweg/order/conflicts.hpp>
 #include <thalweg/order/order_triangles.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
 #include <thalweg/order/useful_edges.hpp>
@@ -16,6 +17,7 @@ namespace thalweg {
 std::string triangle_list(std::span<const OrderTriangle> triangles);
 std::string edge_list(std::span<const UsefulEdge> edges);
 std::string quadrilateral_list(std::span<const Quadrilateral> quadrilaterals);
+std::string conflict_list(std::span<const EdgeConflict> conflicts);
 
 /// Fills `census` and `not_taken` of the result for orders up to its `max_order`. Throws: Error{Cancelled}.
 void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& progress);

@@ -109,6 +109,7 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   const std::string triangles_file = reserve(config.triangles_path);
   const std::string edges_file = reserve(config.edges_path);
   const std::string quadrilaterals_file = reserve(config.quadrilaterals_path);
+  const std::string conflicts_file = reserve(config.conflicts_path);
   const std::string picture_file = reserve(config.picture_path);
   progress.start_phase("read");
   PlaneSurvey survey = read_into_plane(config.points, config.lines, config.read, progress).survey;
@@ -125,12 +126,19 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   OrderWorkspace workspace;
   for (const auto& corners : config.triangles) result.asked.push_back(ask(orders, corners, workspace));
   if (!picture_file.empty()) draw_answer(orders, result.asked.front(), picture_file, config.picture_path);
-  if (!triangles_file.empty() || !edges_file.empty()) {
+  if (!triangles_file.empty() || !edges_file.empty() || !conflicts_file.empty()) {
     std::vector<OrderTriangle> triangles = find_order_triangles(
         orders, {.definition = config.definition, .max_order = config.max_order}, progress);
     if (!triangles_file.empty()) {
       result.order_triangles = triangles.size();
       write_list(triangles_file, config.triangles_path, triangle_list(triangles));
+    }
+    if (!conflicts_file.empty()) {
+      const auto faces = find_fixed_faces(ground.tin, triangles, {}, progress);
+      const EdgeConflicts conflicts = faces ? find_edge_conflicts(*faces, {}, progress) : EdgeConflicts{};
+      result.conflicts = conflicts.pairs.size();
+      result.undecided_faces = conflicts.undecided_faces;
+      write_list(conflicts_file, config.conflicts_path, conflict_list(conflicts.pairs));
     }
     if (!edges_file.empty()) {
       const std::vector<UsefulEdge> edges =
@@ -205,6 +213,8 @@ std::string to_json(const OrderResult& result) {
   if (result.useful_edges) json["useful_edges"] = *result.useful_edges;
   if (result.unknown_edges) json["unknown_edges"] = *result.unknown_edges;
   if (result.quadrilaterals) json["quadrilaterals"] = *result.quadrilaterals;
+  if (result.conflicts) json["conflicts"] = *result.conflicts;
+  if (result.undecided_faces) json["undecided_faces"] = *result.undecided_faces;
   if (!result.census.empty()) json["census"] = census_json(result);
   if (!result.not_taken.empty()) json["not_taken"] = result.not_taken;
   return json.dump(2) + "\n";
@@ -227,6 +237,15 @@ std::string to_text(const OrderResult& result) {
   }
   if (result.quadrilaterals) {
     text += fmt::format("{} quadrilaterals under {}\n", *result.quadrilaterals, result.definition);
+  }
+  if (result.conflicts) {
+    text += fmt::format("{} pairs of edges that exclude each other at order {} under {}", *result.conflicts,
+                        result.max_order, result.definition);
+    if (*result.undecided_faces > 0) {
+      text += fmt::format("; {} faces have too many triangulations, of these the pairs that cross",
+                          *result.undecided_faces);
+    }
+    text += "\n";
   }
   if (!result.census.empty()) text += census_text(result);
   for (const TriangleOrders& answer : result.asked) {

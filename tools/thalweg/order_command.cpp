@@ -88,6 +88,8 @@ void add_order_command(CLI::App& app) {
                       "CSV a,b,c,order of every valid triangle of that order");
   command->add_option("--list-edges", a->config.edges_path,
                       "CSV a,b,order of every useful edge, with the smallest order at which it is useful");
+  command->add_option("--list-conflicts", a->config.conflicts_path,
+                      "CSV a,b,c,d,crossing of edges ab, cd that no triangulation of that order holds both");
   command->add_flag("--census", a->config.census,
                     "count triangles and useful edges of order 0 to --order under every definition");
   command->add_option("--list-quadrilaterals", a->config.quadrilaterals_path,

@@ -28,6 +28,7 @@ struct OrderConfig {
   std::string triangles_path;       ///< CSV a,b,c,order of all valid triangles; empty: none
   std::string edges_path;           ///< CSV a,b,order of all useful edges; empty: none
   std::string quadrilaterals_path;  ///< CSV s,u,t,v,delaunay; empty: none
+  std::string conflicts_path;       ///< CSV a,b,c,d,crossing of edges that exclude each other; empty: none
   std::string picture_path;         ///< .png, .svg or .pdf of the one triangle; empty: none
   bool census = false;              ///< count triangles and useful edges under every definition
   bool overwrite = false;
@@ -56,7 +57,8 @@ struct OrderResult {
   std::string definition;
   std::size_t max_order = 1;
   /// Counts of what was listed.
-  std::optional<std::size_t> quadrilaterals, order_triangles, useful_edges, unknown_edges;
+  std::optional<std::size_t> quadrilaterals, order_triangles, useful_edges, unknown_edges, conflicts,
+      undecided_faces;
   std::vector<CensusRow> census;       ///< by definition, then order
   std::vector<std::string> not_taken;  ///< definitions that the census leaves out, and why
   std::vector<TriangleOrders> asked;

@@ -56,10 +56,10 @@ std::set<Edges> by_flips(const Tin& ground, const std::vector<Quadrilateral>& qu
   return found;
 }
 
-/// All triangulations of order at most 1 by enumeration, as sets of edges.
-std::set<Edges> by_enumeration(const oracle::Enumeration& all, OrderDefinition definition) {
+/// All triangulations of order at most k by enumeration, as sets of edges.
+std::set<Edges> by_enumeration(const oracle::Enumeration& all, OrderDefinition definition, int k = 1) {
   std::set<Edges> found;
-  for (const std::size_t i : all.of_order(static_cast<oracle::Definition>(definition), 1)) {
+  for (const std::size_t i : all.of_order(static_cast<oracle::Definition>(definition), k)) {
     std::vector<oracle::Corners> triangles;
     for (const int t : all.members[i]) triangles.push_back(all.triangles[static_cast<std::size_t>(t)]);
     const std::vector<Edge> edges = oracle::edges_of(triangles);
@@ -126,6 +126,96 @@ TEST(Conflicts, ShareATriangle) {
     }
     ASSERT_EQ(find_conflicts(ground, quadrilaterals), expected);
   });
+}
+
+/// Which edges exclude which, by definition; as find_edge_conflicts lists them.
+std::vector<EdgeConflict> excluded(const std::set<Edges>& triangulations, const oracle::Scene& scene) {
+  Edges useful;
+  std::set<std::pair<Edge, Edge>> together;
+  for (const Edges& edges : triangulations) {
+    useful.insert(edges.begin(), edges.end());
+    for (const Edge& one : edges) {
+      for (const Edge& other : edges) together.emplace(one, other);
+    }
+  }
+  const auto side = [&](Edge e, int v) {
+    return oracle::sign_of(oracle::turn(scene.at(e.first), scene.at(e.second), scene.at(v)));
+  };
+  std::vector<EdgeConflict> conflicts;
+  for (const Edge& one : useful) {
+    for (const Edge& other : useful) {
+      if (!(one < other) || together.contains({one, other})) continue;
+      const bool crossing = side(one, other.first) * side(one, other.second) < 0 &&
+                            side(other, one.first) * side(other, one.second) < 0;
+      conflicts.push_back({test::vertex(one.first), test::vertex(one.second), test::vertex(other.first),
+                           test::vertex(other.second), crossing});
+    }
+  }
+  return conflicts;
+}
+
+EdgeConflicts edge_conflicts(const Tin& ground, const oracle::Scene& scene, OrderDefinition definition,
+                             std::size_t k) {
+  Progress progress;
+  const ConstrainedOrder order(ground, test::mode_of(scene));
+  const auto faces = find_fixed_faces(
+      ground, find_order_triangles(order, {.definition = definition, .max_order = k}, progress), {},
+      progress);
+  return faces ? find_edge_conflicts(*faces, {}, progress) : EdgeConflicts{};
+}
+
+// Law 1, of which law 2 is a part: under every definition, for k = 1 and 2.
+TEST(EdgeConflicts, AreThePairsThatNoTriangulationHolds) {
+  for_each_scene(oracle::kStreams, 20, kSmall, [](const Oracle& oracle) {
+    const oracle::Enumeration all = enumerate(oracle);
+    const Tin ground = test::ground_of(oracle.scene());
+    for (const OrderDefinition definition : kOrderDefinitions) {
+      for (const int k : {1, 2}) {
+        const EdgeConflicts found =
+            edge_conflicts(ground, oracle.scene(), definition, static_cast<std::size_t>(k));
+        ASSERT_EQ(found.undecided_faces, 0U);
+        ASSERT_EQ(found.pairs, excluded(by_enumeration(all, definition, k), oracle.scene()))
+            << definition_name(definition) << ", k = " << k;
+      }
+    }
+  });
+}
+
+// Up to SeesOpp each quadrilateral is one pair, and there are no others.
+TEST(EdgeConflicts, AreTheTwoDiagonalsOfQuadrilateralsUpToSeesOpp) {
+  for_each_scene(oracle::kStreams, 40, {.fewest = 4, .most = 16, .constraints = 8}, [](const Oracle& oracle) {
+    const Tin ground = test::ground_of(oracle.scene());
+    for (const OrderDefinition definition : kOrderDefinitions) {
+      if (definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad) continue;
+      std::vector<EdgeConflict> expected;
+      for (const Quadrilateral& q : quadrilaterals_of(ground, oracle.scene(), definition)) {
+        const Edge one = std::min(edge(q.s, q.t), edge(q.u, q.v));
+        const Edge other = std::max(edge(q.s, q.t), edge(q.u, q.v));
+        expected.push_back({test::vertex(one.first), test::vertex(one.second), test::vertex(other.first),
+                            test::vertex(other.second), true});
+      }
+      std::sort(expected.begin(), expected.end());
+      ASSERT_EQ(edge_conflicts(ground, oracle.scene(), definition, 1).pairs, expected)
+          << definition_name(definition);
+    }
+  });
+}
+
+// Where a face has too many triangulations, the pairs that cross remain.
+TEST(EdgeConflicts, SayWhereTheyStop) {
+  const oracle::SceneFile file = oracle::read_scene(THALWEG_SOURCE_DIR "/tests/support/scenes", "figure-17");
+  const Tin ground = test::ground_of(file.scene);
+  const ConstrainedOrder order(ground, test::mode_of(file.scene));
+  Progress progress;
+  const auto faces = find_fixed_faces(
+      ground,
+      find_order_triangles(order, {.definition = OrderDefinition::Sees3vtx, .max_order = 1}, progress), {},
+      progress);
+  ASSERT_TRUE(faces.has_value());
+  const EdgeConflicts cut = find_edge_conflicts(*faces, {.most = 2}, progress);
+  EXPECT_GT(cut.undecided_faces, 0U);
+  EXPECT_FALSE(cut.pairs.empty());
+  for (const EdgeConflict& pair : cut.pairs) EXPECT_TRUE(pair.crossing);
 }
 
 // Figure 17: a chain of seven; its flips without conflict, subsets of a path without neighbours, are all
