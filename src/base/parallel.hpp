@@ -8,7 +8,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <thread>
 
 namespace thalweg {
 
@@ -21,6 +23,30 @@ void for_each_block(std::size_t count, std::size_t block, const Progress& progre
     progress.check();
     body(b * block, std::min(count, (b + 1) * block));
   });
+}
+
+/// The part of a phase that a loop takes, as fractions of the phase.
+struct Stretch {
+  double from = 0;
+  double to = 1;
+};
+
+/// The same, and reports the fraction done: the calling thread, which takes part in the loop, does so after
+/// each of its blocks.
+template <class Body>
+void for_each_block(std::size_t count, std::size_t block, Progress& progress, Stretch stretch,
+                    const Body& body) {
+  const std::size_t blocks = (count + block - 1) / block;
+  const std::thread::id lead = std::this_thread::get_id();
+  std::atomic<std::size_t> done{0};
+  for_each_block(count, block, progress, [&](std::size_t begin, std::size_t end) {
+    body(begin, end);
+    const std::size_t now = ++done;
+    if (std::this_thread::get_id() != lead) return;
+    progress.advance(stretch.from +
+                     (stretch.to - stretch.from) * static_cast<double>(now) / static_cast<double>(blocks));
+  });
+  progress.advance(stretch.to);
 }
 
 }  // namespace thalweg

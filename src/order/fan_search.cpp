@@ -22,19 +22,20 @@
 // holds more
 //    than k vertices that count by 2: no v there has a triangle of order <= k with u. For 2b the ends within
 //    reach of x must be known: gaps go by distance, so all nearer ends are, save those in gaps given up,
-//    whose directions end the certainty.
+//    in whose directions certainty ends.
 // 4. Inversion about u turns discs through u into half-planes: x lies in the disc through u and f with centre
-// in
-//    direction c exactly if x* c > f* c, where x* = x / |x|^2. The far part of a gap becomes a set that a
+//    in direction c exactly if x* c > f* c, where x* = x / |x|^2. The far part of a gap becomes a set that a
 //    triangle with corners u, f1, f2 holds. So each x covers the directions c with (x* - f1) c > 0 and (x* -
-//    f2) c > 0, an arc, and the gap is hopeless if the arcs cover all c that have f1 c > 0 or f2 c > 0 more
-//    than k times.
-// 5. This part alone is done in rounded arithmetic, with arcs made smaller and discs larger by far more than
-// its
-//    errors: it decides what is searched, not what is found. What u sees is decided exactly.
+//    f2) c > 0, and the gap is hopeless if all c that have f1 c > 0 or f2 c > 0 are covered more than k
+//    times. What x covers is a convex cone: with two directions it covers all between them. So the sector of
+//    all c is halved until more than k vertices cover both ends of each part, or some direction is found that
+//    no more than k cover; that one is tried first on the gaps that come from this one. Most are settled by
+//    the few nearest vertices, which come first.
+// 5. This part alone is done in rounded arithmetic, with covers made smaller and discs larger by far more
+//    than its errors: it decides what is searched, not what is found. What u sees is decided exactly.
 //
-// Directions are measured by the diamond angle, which grows with the angle from 0 to 4 and by 1 a quarter
-// turn.
+// Where directions are compared they are measured by the diamond angle, which grows with the angle from 0 to
+// 4 and by 1 a quarter turn.
 #include "order/fan_search.hpp"
 
 #include <algorithm>
@@ -48,6 +49,9 @@ namespace {
 constexpr double kReach = 1.1548;  // above 1 / sin 60
 constexpr double kWider = 1 + 1e-9;
 constexpr double kAngleSlack = 1e-11;
+constexpr double kCoverSlack = 1e-10;
+// A gap is tested again once it is that much farther: few more are searched, and many tests saved.
+constexpr double kFarther = 1.1;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 double diamond_angle(double x, double y) {
@@ -70,6 +74,24 @@ bool farther(double a, double b) {
   return a > b;
 }
 
+// Near the hull only vertices far along a narrow gap tell that it is hopeless, so many count; the limit keeps
+// a vertex that sees thousands from a cost that is quadratic in them.
+constexpr std::size_t kMostCounted = 1024;
+// From 90 degrees down to 3.
+constexpr int kHalvings = 5;
+
+using Direction = FanSearch::Direction;
+
+double dot(Direction a, Direction b) {
+  return a.x * b.x + a.y * b.y;
+}
+double length(Direction a) {
+  return std::sqrt(dot(a, a));
+}
+Direction scaled(Direction a, double factor) {
+  return {a.x * factor, a.y * factor};
+}
+
 }  // namespace
 
 std::span<const FanSearch::Partner> FanSearch::partners(const Ground& ground, VertexId u, std::size_t k,
@@ -89,9 +111,10 @@ std::span<const FanSearch::Partner> FanSearch::partners(const Ground& ground, Ve
   }
   partners_.clear();
   for (const Seen& seen : seen_) {
-    const double x = seen.inverse_x * kWider;
-    const double y = seen.inverse_y * kWider;
-    if (hopeless({seen.angle, seen.angle, x, y, x, y}, kUnbounded)) continue;
+    const Direction to{seen.x / seen.distance, seen.y / seen.distance};
+    const Direction at{seen.inverse.x * kWider, seen.inverse.y * kWider};
+    Direction open;
+    if (hopeless({seen.angle, seen.angle, to, to, at, at, kUnbounded}, open)) continue;
     partners_.push_back({seen.vertex, seen.angle});
   }
   return partners_;
@@ -101,6 +124,8 @@ void FanSearch::start() {
   gaps_.clear();
   seen_.clear();
   stops_.clear();
+  sectors_.fill(kUnbounded);
+  nearest_stop_ = kUnbounded;
   const Tin& tin = ground_->tin();
   for (const HalfedgeId h : tin.outgoing(u_)) {
     const HalfedgeId last = Tin::previous(h);
@@ -110,7 +135,7 @@ void FanSearch::start() {
       see(tin.apex(h));
       if (ground_->blocks(last)) stop_at(tin.apex(h), 0);
     }
-    push(Tin::next(h), {ground_->point(tin.target(h)), ground_->point(tin.apex(h))}, 0);
+    push(Tin::next(h), {ground_->point(tin.target(h)), ground_->point(tin.apex(h))}, 0, 0, {});
   }
 }
 
@@ -120,27 +145,35 @@ void FanSearch::see(VertexId v) {
   const double square = seen.x * seen.x + seen.y * seen.y;
   seen.distance = std::sqrt(square);
   seen.angle = diamond_angle(seen.x, seen.y);
-  seen.inverse_x = seen.x / square;
-  seen.inverse_y = seen.y / square;
+  seen.inverse = {seen.x / square, seen.y / square};
+  seen.slack = kCoverSlack / seen.distance;
   seen_.push_back(seen);
   if (pruning_ == FanPruning::NearEnds && ground_->blocks(v)) stop_at(v, seen.distance);
 }
 
 void FanSearch::stop_at(VertexId v, double distance) {
   const Point2 p = ground_->point(v);
-  stops_.push_back({v, diamond_angle(p.x - at_.x, p.y - at_.y), distance});
+  add_stop({v, diamond_angle(p.x - at_.x, p.y - at_.y), distance});
+}
+
+void FanSearch::add_stop(const Stop& stop) {
+  stops_.push_back(stop);
+  nearest_stop_ = std::min(nearest_stop_, stop.distance);
+  double& sector = sectors_[static_cast<std::size_t>(stop.angle * kSectorsAUnit) % kSectors];
+  sector = std::min(sector, stop.distance);
 }
 
 void FanSearch::give_up(const Gap& gap) {
   if (pruning_ != FanPruning::NearEnds) return;
-  for (const Point2 p : {gap.angle.right, gap.angle.left}) {
-    stops_.push_back({{}, diamond_angle(p.x - at_.x, p.y - at_.y), gap.distance});
-  }
+  const Point2 right = gap.angle.right, left = gap.angle.left;
+  const double from = diamond_angle(right.x - at_.x, right.y - at_.y);
+  const double turn = turn_between(from, diamond_angle(left.x - at_.x, left.y - at_.y));
+  add_stop({{}, normal(from + turn / 2), gap.distance});
 }
 
-void FanSearch::push(HalfedgeId edge, const Angle& angle, double distance) {
+void FanSearch::push(HalfedgeId edge, const Angle& angle, double distance, double tested, Direction open) {
   if (ground_->blocks(edge) || ground_->tin().on_rim(edge)) return;
-  Gap gap{edge, angle, distance};
+  Gap gap{edge, angle, distance, tested, open};
   gap.distance = std::max(distance, distance_to(gap));
   gaps_.push_back(gap);
   std::push_heap(gaps_.begin(), gaps_.end(),
@@ -148,17 +181,20 @@ void FanSearch::push(HalfedgeId edge, const Angle& angle, double distance) {
 }
 
 void FanSearch::expand(const Gap& gap) {
-  const double right_x = gap.angle.right.x - at_.x, right_y = gap.angle.right.y - at_.y;
-  const double left_x = gap.angle.left.x - at_.x, left_y = gap.angle.left.y - at_.y;
-  const double right_length = std::hypot(right_x, right_y);
-  const double left_length = std::hypot(left_x, left_y);
-  const double cosine = (right_x * left_x + right_y * left_y) / (right_length * left_length);
-  if (cosine > -0.5 && gap.distance > 0) {
+  const Direction right{gap.angle.right.x - at_.x, gap.angle.right.y - at_.y};
+  const Direction left{gap.angle.left.x - at_.x, gap.angle.left.y - at_.y};
+  const double right_length = length(right);
+  const double left_length = length(left);
+  const double cosine = dot(right, left) / (right_length * left_length);
+  Direction open = gap.open;
+  double tested = gap.tested;
+  if (cosine > -0.5 && gap.distance > kFarther * gap.tested) {
+    tested = gap.distance;
     const double size = kWider / (gap.distance * std::sqrt((1 + std::min(cosine, 1.0)) / 2));
-    const Range range{diamond_angle(right_x, right_y), diamond_angle(left_x, left_y),
-                      right_x / right_length * size,   right_y / right_length * size,
-                      left_x / left_length * size,     left_y / left_length * size};
-    if (hopeless(range, gap.distance)) return give_up(gap);
+    const Direction to_right = scaled(right, 1 / right_length), to_left = scaled(left, 1 / left_length);
+    const Range range{diamond_angle(right.x, right.y), diamond_angle(left.x, left.y), to_right,    to_left,
+                      scaled(to_right, size),          scaled(to_left, size),         gap.distance};
+    if (hopeless(range, open)) return give_up(gap);
   }
   const HalfedgeId entry = ground_->tin().twin(gap.edge);
   const VertexId apex = ground_->tin().apex(entry);
@@ -167,14 +203,14 @@ void FanSearch::expand(const Gap& gap) {
   const int of_left = orientation(at_, p, gap.angle.left);
   if (of_right > 0 && of_left > 0) {
     see(apex);
-    push(Tin::next(entry), {gap.angle.right, p}, gap.distance);
-    push(Tin::previous(entry), {p, gap.angle.left}, gap.distance);
+    push(Tin::next(entry), {gap.angle.right, p}, gap.distance, tested, open);
+    push(Tin::previous(entry), {p, gap.angle.left}, gap.distance, tested, open);
     return;
   }
   if ((of_right == 0 || of_left == 0) && pruning_ == FanPruning::NearEnds && ground_->blocks(apex)) {
-    stop_at(apex, std::hypot(p.x - at_.x, p.y - at_.y));
+    stop_at(apex, length({p.x - at_.x, p.y - at_.y}));
   }
-  push(of_right <= 0 ? Tin::previous(entry) : Tin::next(entry), gap.angle, gap.distance);
+  push(of_right <= 0 ? Tin::previous(entry) : Tin::next(entry), gap.angle, gap.distance, tested, open);
 }
 
 // The distance of the edge's part within the angle. Where the edge is seen too flat for its cuts to be
@@ -187,13 +223,13 @@ double FanSearch::distance_to(const Gap& gap) const {
   const double start_x = start.x - at_.x, start_y = start.y - at_.y;
   const double along_x = end.x - start.x, along_y = end.y - start.y;
   const double length_square = along_x * along_x + along_y * along_y;
-  const double length = std::sqrt(length_square);
+  const double edge_length = std::sqrt(length_square);
   double low = 0;
   double high = 1;
   const auto cut = [&](Point2 through) {
     const double x = through.x - at_.x, y = through.y - at_.y;
     const double across = x * along_y - y * along_x;
-    if (std::abs(across) < kFlat * length * std::hypot(x, y)) return kUnbounded;
+    if (std::abs(across) < kFlat * edge_length * length({x, y})) return kUnbounded;
     return (y * start_x - x * start_y) / across;
   };
   const double from = cut(gap.angle.right);
@@ -201,13 +237,14 @@ double FanSearch::distance_to(const Gap& gap) const {
   if (from < kUnbounded) low = std::clamp(from, 0.0, 1.0);
   if (to < kUnbounded) high = std::clamp(to, low, 1.0);
   const double foot = std::clamp(-(start_x * along_x + start_y * along_y) / length_square, low, high);
-  const double near = std::hypot(start_x + foot * along_x, start_y + foot * along_y);
-  return near - kError * (std::hypot(start_x, start_y) + length);
+  const double near = length({start_x + foot * along_x, start_y + foot * along_y});
+  return near - kError * (length({start_x, start_y}) + edge_length);
 }
 
-bool FanSearch::certain(const Range& range, const Seen& seen, double horizon) const {
+bool FanSearch::certain(const Range& range, const Seen& seen) const {
   const double reach = kReach * seen.distance;
-  if (pruning_ == FanPruning::NearEnds && reach > horizon) return false;
+  if (pruning_ == FanPruning::NearEnds && reach > range.horizon) return false;
+  if (reach < nearest_stop_) return true;
   const double breadth = turn_between(range.right, range.left);
   const double from_right = turn_between(range.right, seen.angle);
   double start = range.right;
@@ -223,56 +260,92 @@ bool FanSearch::certain(const Range& range, const Seen& seen, double horizon) co
       return false;
     }
   }
-  const double slack_start = normal(start - kAngleSlack);
-  return std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) {
-    if (stop.vertex.valid() && stop.vertex == seen.vertex) return false;
-    return stop.distance <= reach && turn_between(slack_start, stop.angle) <= turn + 2 * kAngleSlack;
-  });
-}
-
-// The arc of directions that a vertex covers (step 4), as changes of depth along the directions to be
-// covered.
-void FanSearch::add_turns(const Range& range, const Seen& seen) {
-  const double right = diamond_angle(seen.inverse_x - range.right_x, seen.inverse_y - range.right_y);
-  const double left = diamond_angle(seen.inverse_x - range.left_x, seen.inverse_y - range.left_y);
-  const double apart = turn_between(right, left);
-  const double length = std::abs(2 - apart) - 2 * kAngleSlack;
-  if (!(length > 0)) return;
-  const double start = normal((apart < 2 ? left : right) - 1 + kAngleSlack);
-  const double offset = turn_between(normal(range.right - 1), start);
-  turns_.push_back({offset, 1});
-  turns_.push_back({offset + length, -1});
-  if (offset + length > 4) {
-    turns_.push_back({0, 1});
-    turns_.push_back({offset + length - 4, -1});
-  }
-}
-
-bool FanSearch::hopeless(const Range& range, double horizon) {
-  if (pruning_ == FanPruning::None || seen_.size() <= k_) return false;
-  // Near the hull only vertices far along a narrow gap tell that it is hopeless, so all count; the limit
-  // keeps a vertex that sees thousands from a cost that is quadratic in them.
-  constexpr std::size_t kMost = 1024;
-  turns_.clear();
-  for (std::size_t i = 0; i < std::min(kMost, seen_.size()); ++i) {
-    if (certain(range, seen_[i], horizon)) add_turns(range, seen_[i]);
-  }
-  if (turns_.size() <= 2 * k_) return false;
-  std::sort(turns_.begin(), turns_.end(), [](const Turn& a, const Turn& b) {
-    return a.angle != b.angle ? a.angle < b.angle : a.change < b.change;
-  });
-  const double end = turn_between(range.right, range.left) + 2;
-  std::size_t depth = 0;
-  std::size_t i = 0;
-  for (; i < turns_.size() && turns_[i].angle <= 0; ++i) depth += 1;
-  for (; depth > k_ && i < turns_.size() && turns_[i].angle < end; ++i) {
-    if (turns_[i].change > 0) {
-      ++depth;
-    } else {
-      --depth;
+  const double from = normal(start - kAngleSlack);
+  const double breadth_to_stop = turn + 2 * kAngleSlack;
+  const auto first = static_cast<std::size_t>(from * kSectorsAUnit) % kSectors;
+  const auto last = static_cast<std::size_t>(normal(from + breadth_to_stop) * kSectorsAUnit) % kSectors;
+  const bool unclear = sectors_[first] <= reach || sectors_[last] <= reach;
+  if (first != last) {
+    for (std::size_t i = (first + 1) % kSectors; i != last; i = (i + 1) % kSectors) {
+      if (sectors_[i] <= reach) return false;
     }
   }
-  return depth > k_;
+  if (!unclear) return true;
+  return std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) {
+    return stop.distance <= reach && (!stop.vertex.valid() || stop.vertex != seen.vertex) &&
+           turn_between(from, stop.angle) <= breadth_to_stop;
+  });
+}
+
+FanSearch::Probe FanSearch::probe(const Range& range, Direction c) {
+  return {c, std::max(dot(range.right_at, c), dot(range.left_at, c)) + range.slack};
+}
+
+bool FanSearch::deep_at(const Range& range, Direction c) const {
+  const Probe at = probe(range, c);
+  std::size_t depth = 0;
+  for (std::size_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
+    if (at.covered_by(seen_[i]) && certain(range, seen_[i]) && ++depth > k_) return true;
+  }
+  return false;
+}
+
+// Whether more than k of the active vertices cover all directions between, where that is not so.
+bool FanSearch::deep_between(const Range& range, const Probe& from, const Probe& to, int halvings,
+                             Direction& open) const {
+  const Direction sum{from.c.x + to.c.x, from.c.y + to.c.y};
+  const Probe middle = probe(range, scaled(sum, 1 / length(sum)));
+  std::size_t depth = 0, right_depth = 0, left_depth = 0;
+  for (const std::uint32_t i : active_) {
+    if (!middle.covered_by(seen_[i])) continue;
+    ++depth;
+    right_depth += from.covered_by(seen_[i]) ? 1 : 0;
+    left_depth += to.covered_by(seen_[i]) ? 1 : 0;
+    if (right_depth > k_ && left_depth > k_) return true;
+  }
+  if (depth <= k_ || halvings == 0) {
+    open = middle.c;
+    return false;
+  }
+  return (right_depth > k_ || deep_between(range, from, middle, halvings - 1, open)) &&
+         (left_depth > k_ || deep_between(range, middle, to, halvings - 1, open));
+}
+
+// The vertices that certainly count and cover any of the range's chief directions; false if some of these
+// are covered by k or fewer.
+bool FanSearch::activate(const Range& range, const std::array<Probe, 4>& chief, Direction& open) {
+  active_.clear();
+  std::array<std::size_t, 4> depth{};
+  for (std::size_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
+    std::array<bool, 4> covered{};
+    for (std::size_t j = 0; j < 4; ++j) covered[j] = chief[j].covered_by(seen_[i]);
+    if (!(covered[0] || covered[1] || covered[2] || covered[3]) || !certain(range, seen_[i])) continue;
+    for (std::size_t j = 0; j < 4; ++j) depth[j] += covered[j] ? 1 : 0;
+    active_.push_back(static_cast<std::uint32_t>(i));
+  }
+  for (std::size_t j = 0; j < 4; ++j) {
+    if (depth[j] > k_) continue;
+    open = chief[j].c;
+    return false;
+  }
+  return true;
+}
+
+bool FanSearch::hopeless(Range range, Direction& open) {
+  if (pruning_ == FanPruning::None || seen_.size() <= k_) return false;
+  range.slack = kCoverSlack * std::max(length(range.right_at), length(range.left_at));
+  if (open != Direction{} && (dot(open, range.to_right) > 0 || dot(open, range.to_left) > 0) &&
+      !deep_at(range, open)) {
+    return false;
+  }
+  const Probe first = probe(range, {range.to_right.y, -range.to_right.x});
+  const Probe right = probe(range, range.to_right);
+  const Probe left = probe(range, range.to_left);
+  const Probe last = probe(range, {-range.to_left.y, range.to_left.x});
+  if (!activate(range, {first, right, left, last}, open)) return false;
+  return deep_between(range, first, right, kHalvings, open) &&
+         (range.right == range.left || deep_between(range, right, left, kHalvings, open)) &&
+         deep_between(range, left, last, kHalvings, open);
 }
 
 }  // namespace thalweg::detail

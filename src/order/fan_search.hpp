@@ -4,6 +4,7 @@
 
 #include "order/ground.hpp"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,6 +27,11 @@ class FanSearch {
     double angle = 0;  ///< diamond angle of its direction, in [0, 4), rounded
   };
 
+  struct Direction {
+    double x = 0, y = 0;
+    bool operator==(const Direction&) const = default;
+  };
+
   /// Finds each vertex v that u sees, and that can be a corner with u of a valid triangle of order at most k:
   /// with FanPruning::NearEnds, only as far as the triangle's largest angle is at u. Others may be among
   /// them. Complexity: the faces of the ground in each gap of the view that is not given up.
@@ -38,12 +44,13 @@ class FanSearch {
     double x = 0, y = 0;
     double distance = 0;
     double angle = 0;
-    double inverse_x = 0, inverse_y = 0;  ///< the position inverted at the unit circle about u
+    Direction inverse;  ///< the position inverted at the unit circle about u
+    double slack = 0;   ///< more than what rounding may do to products of it with unit vectors
   };
   /// What ends certainty about the vertices farther round: a direction, for all vertices farther than
   /// `distance` over kReach.
   struct Stop {
-    VertexId vertex;  ///< invalid: the side of a gap that was given up
+    VertexId vertex;  ///< invalid: a side of a gap that was given up
     double angle = 0;
     double distance = 0;
   };
@@ -53,28 +60,45 @@ class FanSearch {
     HalfedgeId edge;
     Angle angle;
     double distance = 0;
+    double tested = 0;  ///< the distance at which it, or one it comes from, was last tested
+    Direction open;     ///< one that few covered; zero: not known
   };
   /// A closed range of directions, counter-clockwise, and the positions in it at some distance or farther, as
   /// the corners of a triangle with u that holds them all after inversion.
   struct Range {
-    double right = 0, left = 0;
-    double right_x = 0, right_y = 0, left_x = 0, left_y = 0;
+    double right = 0, left = 0;   ///< diamond angles
+    Direction to_right, to_left;  ///< unit vectors
+    Direction right_at, left_at;  ///< the corners
+    double horizon = 0;           ///< what lies nearer is known
+    double slack = 0;
   };
-  struct Turn {
-    double angle = 0;
-    int change = 0;
+
+  /// A direction, and what products of inverse positions with it must exceed to cover it.
+  struct Probe {
+    Direction c;
+    double threshold = 0;
+    [[nodiscard]] bool covered_by(const Seen& seen) const {
+      return seen.inverse.x * c.x + seen.inverse.y * c.y - seen.slack > threshold;
+    }
   };
 
   void start();
   void expand(const Gap& gap);
-  void push(HalfedgeId edge, const Angle& angle, double distance);
+  void push(HalfedgeId edge, const Angle& angle, double distance, double tested, Direction open);
+  void add_stop(const Stop& stop);
   void see(VertexId v);
   void stop_at(VertexId v, double distance);
   void give_up(const Gap& gap);
   [[nodiscard]] double distance_to(const Gap& gap) const;
-  [[nodiscard]] bool certain(const Range& range, const Seen& seen, double horizon) const;
-  [[nodiscard]] bool hopeless(const Range& range, double horizon);
-  void add_turns(const Range& range, const Seen& seen);
+  [[nodiscard]] bool certain(const Range& range, const Seen& seen) const;
+  static Probe probe(const Range& range, Direction c);
+  [[nodiscard]] bool deep_at(const Range& range, Direction c) const;
+  bool activate(const Range& range, const std::array<Probe, 4>& chief, Direction& open);
+  [[nodiscard]] bool deep_between(const Range& range, const Probe& from, const Probe& to, int halvings,
+                                  Direction& open) const;
+  /// Whether no triangle of order <= k has u and a position in the range as corners. Tells a direction that
+  /// few cover where it says no; `open` may bring a guess.
+  [[nodiscard]] bool hopeless(Range range, Direction& open);
 
   const Ground* ground_ = nullptr;
   VertexId u_;
@@ -84,7 +108,11 @@ class FanSearch {
   std::vector<Gap> gaps_;  ///< a heap by distance
   std::vector<Seen> seen_;
   std::vector<Stop> stops_;
-  std::vector<Turn> turns_;
+  static constexpr std::size_t kSectorsAUnit = 16;
+  static constexpr std::size_t kSectors = 4 * kSectorsAUnit;
+  std::array<double, kSectors> sectors_{};  ///< of diamond angles: the distance of the nearest stop in it
+  double nearest_stop_ = 0;
+  std::vector<std::uint32_t> active_;  ///< of seen_
   std::vector<Partner> partners_;
 };
 

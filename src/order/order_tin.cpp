@@ -1,63 +1,106 @@
 // Orders of all triangles.
 //
-// 1. An edge is locally Delaunay if it blocks, or lies on the rim, or the apex on its other side is outside
-// of
-//    the circle of the triangle on this side, by the tie rule. A triangulation all of whose edges are so is
-//    the constrained Delaunay triangulation (Lee and Lin, Generalized Delaunay triangulation for planar
-//    graphs, 1986): no path inside its disc joins a triangle to a vertex there. So Pathcon counts none, and
-//    the other definitions, Std with edges that block aside, count no more (Lemma 1).
-// 2. Else each triangle is asked for by itself. What floods need is the topology of the TIN, not that it is
-//    Delaunay.
+// 1. Triangles of the constrained Delaunay triangulation of the TIN's vertices and constraint edges: no path
+//    inside its disc joins such a triangle to a vertex there (Lee and Lin, Generalized Delaunay triangulation
+//    for planar graphs, 1986). So Pathcon counts none, and the other definitions but Std count no more
+//    (Lemma 1). Under Std over a convex ground the same holds with the Delaunay triangulation of the vertices
+//    alone. Flips find it (delaunay_flips.cpp): a triangle that is never flipped is one of it, order 0.
+// 2. Triangles abc and bad that one flip turned into adc and dbc of that triangulation: d lies in the disc of
+//    abc, sees c across the quadrilateral, and a and b along its sides, and dab holds no other vertex, so
+//    every definition counts it. No other vertex counts unless a neighbour of d lies in the disc too
+//    (quadrilaterals.cpp, step 2): order 1.
+// 3. What is left is asked for one by one: little in a TIN of low order. So is every triangle where nothing
+//    is known beforehand: under Std over a polygon, and where flips take too long. What floods need is the
+//    topology of the TIN, not that it is Delaunay.
 #include "base/parallel.hpp"
+#include "order/delaunay_flips.hpp"
 
-#include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/constrained_order.hpp>
 #include <thalweg/order/order_tin.hpp>
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <atomic>
 
 namespace thalweg {
 
 namespace {
 
+using detail::DelaunayFlips;
+using detail::FlipRule;
+
 constexpr std::size_t kBlock = 4096;
+// A TIN of order 1 takes at most a flip for six edges. Four flips an edge cost about as much as asking for
+// all triangles.
+constexpr std::size_t kMostFlipsAnEdge = 4;
 
-bool locally_delaunay(const Tin& tin, HalfedgeId h) {
-  const HalfedgeId twin = tin.twin(h);
-  if (!twin.valid() || twin < h || tin.constrained(h)) return true;
-  return !in_circle_perturbed(tin.point(tin.origin(h)), tin.point(tin.target(h)), tin.point(tin.apex(h)),
-                              tin.point(tin.apex(twin)));
-}
-
-bool delaunay(const Tin& tin, const Progress& progress) {
-  std::atomic<bool> all{true};
-  for_each_block(tin.halfedge_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t h = begin; h < end && all.load(std::memory_order_relaxed); ++h) {
-      if (!locally_delaunay(tin, HalfedgeId{h})) all = false;
+std::vector<HalfedgeId> broken_edges(const Tin& tin, FlipRule rule, Progress& progress) {
+  std::vector<std::vector<HalfedgeId>> found(tin.halfedge_count() / kBlock + 1);
+  for_each_block(tin.halfedge_count(), kBlock, progress, {0, 0.3}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const HalfedgeId h{i};
+      if (tin.represents_edge(h) && detail::breaks_delaunay(tin, h, rule)) found[begin / kBlock].push_back(h);
     }
   });
+  std::vector<HalfedgeId> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
   return all;
+}
+
+constexpr std::uint32_t kUnknown = 0xffffffffU;
+
+// The orders that flips tell, and kUnknown elsewhere.
+std::vector<std::uint32_t> orders_by_flips(const Tin& tin, FlipRule rule, Progress& progress) {
+  std::vector<std::uint32_t> orders(tin.triangle_count(), 0);
+  const std::vector<HalfedgeId> broken = broken_edges(tin, rule, progress);
+  if (broken.empty()) return orders;
+  DelaunayFlips flips(tin, rule, broken);
+  if (!flips.run(kMostFlipsAnEdge * tin.edge_count(), progress)) {
+    std::fill(orders.begin(), orders.end(), kUnknown);
+    return orders;
+  }
+  for (std::size_t t = 0; t < orders.size(); ++t) {
+    if (!flips.kept(TriangleId{t})) orders[t] = kUnknown;
+  }
+  const std::vector<DelaunayFlips::Flip> single = flips.single_flips();
+  for_each_block(single.size(), kBlock, progress, {0.4, 0.6}, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (flips.alone_inside_left(single[i])) orders[single[i].left.index()] = 1;
+      if (flips.alone_inside_right(single[i])) orders[single[i].right.index()] = 1;
+    }
+  });
+  return orders;
+}
+
+void ask_for_unknown(const Tin& tin, const TinOrderOptions& options, const ConstrainedOrder& order,
+                     std::vector<std::uint32_t>& orders, Progress& progress) {
+  std::vector<TriangleId> unknown;
+  for (std::size_t t = 0; t < orders.size(); ++t) {
+    if (orders[t] == kUnknown) unknown.push_back(TriangleId{t});
+  }
+  tbb::enumerable_thread_specific<OrderWorkspace> workspaces;
+  for_each_block(unknown.size(), kBlock / 8, progress, {0.6, 1}, [&](std::size_t begin, std::size_t end) {
+    OrderWorkspace& workspace = workspaces.local();
+    for (std::size_t i = begin; i < end; ++i) {
+      const TriangleId t = unknown[i];
+      orders[t.index()] =
+          static_cast<std::uint32_t>(order.order(tin.triangle(t), options.definition, workspace));
+    }
+  });
 }
 
 }  // namespace
 
 TinOrders find_tin_orders(const Tin& tin, const TinOrderOptions& options, Progress& progress) {
   const ConstrainedOrder order(tin, options.mode);
-  TinOrders result{.orders = std::vector<std::uint32_t>(tin.triangle_count(), 0), .histogram = {}};
-  const bool counts_paths = options.definition != OrderDefinition::Std || order.unconstrained();
-  if (!counts_paths || !delaunay(tin, progress)) {
-    tbb::enumerable_thread_specific<OrderWorkspace> workspaces;
-    for_each_block(tin.triangle_count(), kBlock / 8, progress, [&](std::size_t begin, std::size_t end) {
-      OrderWorkspace& workspace = workspaces.local();
-      for (std::size_t t = begin; t < end; ++t) {
-        result.orders[t] = static_cast<std::uint32_t>(
-            order.order(tin.triangle(TriangleId{t}), options.definition, workspace));
-      }
-    });
+  const bool plain = options.definition == OrderDefinition::Std && !order.unconstrained();
+  TinOrders result;
+  if (plain && options.mode == GroundMode::Polygon) {
+    result.orders.assign(tin.triangle_count(), kUnknown);
+  } else {
+    result.orders = orders_by_flips(tin, plain ? FlipRule::FlipAll : FlipRule::KeepConstraints, progress);
   }
+  ask_for_unknown(tin, options, order, result.orders, progress);
   for (const std::uint32_t value : result.orders) {
     result.max_order = std::max(result.max_order, value);
     if (value >= result.histogram.size()) result.histogram.resize(value + std::size_t{1}, 0);

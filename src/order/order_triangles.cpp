@@ -165,7 +165,7 @@ std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
   const TriangleSearch search(ground, options, pruning);
   tbb::enumerable_thread_specific<Scratch> scratches;
   std::vector<std::vector<OrderTriangle>> found(vertices / kBlock + 1);
-  for_each_block(vertices, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+  for_each_block(vertices, kBlock, progress, {0, 1}, [&](std::size_t begin, std::size_t end) {
     Scratch& scratch = scratches.local();
     for (std::size_t u = begin; u < end; ++u) search.at(VertexId{u}, scratch, found[begin / kBlock]);
   });

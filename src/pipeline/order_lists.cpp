@@ -86,7 +86,7 @@ void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& 
   const std::size_t count = result.max_order + 1;
   for (std::size_t d = 0; d < kOrderDefinitions.size(); ++d) {
     const OrderDefinition definition = kOrderDefinitions[d];
-    progress.advance(static_cast<double>(d) / kOrderDefinitions.size());
+    progress.start_phase("census under " + std::string(definition_name(definition)));
     std::vector<CensusRow> rows(count);
     for (std::size_t k = 0; k < count; ++k) rows[k] = {.definition = definition, .order = k};
     try {

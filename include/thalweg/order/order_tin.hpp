@@ -28,8 +28,11 @@ struct TinOrders {
 ///
 /// Law (test): equal to ConstrainedOrder::order of every triangle over any triangulation of the same vertices
 /// and constraint edges. Pre: `tin` covers the convex hull of its vertices in mode Hull. Throws:
-/// Error{Cancelled}. Complexity: linear for a constrained Delaunay triangulation under all definitions but
-/// Std; else a ConstrainedOrder::order for each triangle. Parallel; deterministic.
+/// Error{Cancelled}. Complexity: linear, the flips to the constrained Delaunay triangulation (under Std: to
+/// that without constraint edges), and a ConstrainedOrder::order for each triangle that is neither one of it
+/// nor half of a quadrilateral of it that holds no more; for each triangle under Std in mode Polygon, or
+/// where there are more than four flips an edge. Reports the fraction done of the caller's phase. Parallel;
+/// deterministic.
 TinOrders find_tin_orders(const Tin& tin, const TinOrderOptions& options, Progress& progress);
 
 }  // namespace thalweg

@@ -30,8 +30,8 @@ struct OrderTriangleOptions {
 /// Under Std ... SeesOpp, and Sees3vtx without constraint edges, a local search, proved complete, whose cost
 /// goes with what it finds and with what the vertices see near by. Under Sees3vtx and EmptyQuad nothing
 /// bounds where such triangles lie: every pair of vertices that see each other is tried. Throws:
-/// Error{SizeLimit} if these have more vertices than `exhaustive_limit`; {Cancelled}. Parallel;
-/// deterministic.
+/// Error{SizeLimit} if these have more vertices than `exhaustive_limit`; {Cancelled}. Reports the fraction
+/// done of the caller's phase. Parallel; deterministic.
 std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
                                                 const OrderTriangleOptions& options, Progress& progress);
 

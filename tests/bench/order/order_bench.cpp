@@ -1,4 +1,5 @@
 // What orders cost: seconds a pass over a ground, by kind of ground and size.
+#include "delaunay/spatial_order.hpp"
 #include "scenes.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
@@ -8,6 +9,8 @@
 #include <thalweg/order/useful_edges.hpp>
 
 #include <benchmark/benchmark.h>
+
+#include <ctime>
 
 namespace thalweg::bench {
 namespace {
@@ -120,43 +123,63 @@ BENCHMARK_CAPTURE(useful_edges, random5_sees_triang, Scene::Random5, OrderDefini
 BENCHMARK_CAPTURE(useful_edges, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)
     ->Apply(sizes_and_orders);
 
-// The orders of all triangles of a first-order triangulation: every fourth quadrilateral flipped.
-void tin_orders(benchmark::State& state, Scene scene) {
-  const Tin& delaunay = ground(scene, static_cast<std::size_t>(state.range(0)));
+// As the build numbers its vertices: what is close in the plane is close in memory.
+Tin along_curve(const Tin& tin) {
+  const std::vector<std::uint32_t> order = hilbert_order(tin.points(), Progress());
+  std::vector<VertexId> number(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = VertexId{i};
+  return tin.renumbered(number, Progress());
+}
+
+// The orders of all triangles of a first-order triangulation, every second quadrilateral flipped, and the
+// triangulation of the same vertices and constraint edges: processor time of both, on all threads together.
+void tin_orders(benchmark::State& state, Scene scene, OrderDefinition definition) {
+  const Tin delaunay = along_curve(ground(scene, static_cast<std::size_t>(state.range(0))));
   std::vector<HalfedgeId> flips;
   std::size_t i = 0;
   for (const Quadrilateral& q : find_quadrilaterals(delaunay, {}, Progress())) {
-    if (++i % 4 == 0) flips.push_back(q.diagonal);
+    if (++i % 2 == 0) flips.push_back(q.diagonal);
   }
   const Tin tin = flip_edges(delaunay, flips);
+  const std::vector<ConstraintEdge> edges = tin.constraint_edges();
+  const std::vector<Point2> points(tin.points().begin(), tin.points().end());
+  const std::vector<double> heights(points.size(), 0.0);
   Progress progress;
   std::uint32_t largest = 0;
-  for (auto _ : state) largest = find_tin_orders(tin, {}, progress).max_order;
-  state.counters["max_order"] = static_cast<double>(largest);
-}
-
-// What the orders are compared with.
-void triangulation(benchmark::State& state, Scene scene) {
-  const Tin& tin = ground(scene, static_cast<std::size_t>(state.range(0)));
-  const std::vector<ConstraintEdge> edges = tin.constraint_edges();
-  Progress progress;
+  double orders_s = 0, triangulation_s = 0;
   for (auto _ : state) {
-    const std::vector<Point2> points(tin.points().begin(), tin.points().end());
-    benchmark::DoNotOptimize(
-        triangulate(points, std::vector<double>(points.size(), 0.0), edges, progress).triangle_count());
+    const std::clock_t start = std::clock();
+    benchmark::DoNotOptimize(triangulate(points, heights, edges, progress).triangle_count());
+    const std::clock_t middle = std::clock();
+    largest = find_tin_orders(tin, {.definition = definition}, progress).max_order;
+    const double seconds = static_cast<double>(std::clock() - middle) / CLOCKS_PER_SEC;
+    orders_s += seconds;
+    triangulation_s += static_cast<double>(middle - start) / CLOCKS_PER_SEC;
+    state.SetIterationTime(seconds);
   }
+  state.counters["max_order"] = static_cast<double>(largest);
+  state.counters["to_triangulation"] = orders_s / triangulation_s;
 }
 
-BENCHMARK_CAPTURE(tin_orders, random5, Scene::Random5)
+BENCHMARK_CAPTURE(tin_orders, random5, Scene::Random5, OrderDefinition::SeesOpp)
     ->RangeMultiplier(10)
     ->Range(10000, 1000000)
     ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(triangulation, random5, Scene::Random5)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(tin_orders, random5_std, Scene::Random5, OrderDefinition::Std)
+    ->RangeMultiplier(10)
+    ->Range(10000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(tin_orders, lattice, Scene::Lattice, OrderDefinition::SeesOpp)
     ->RangeMultiplier(10)
     ->Range(10000, 1000000)
     ->Unit(benchmark::kMillisecond)
-    ->UseRealTime();
+    ->UseManualTime();
+BENCHMARK_CAPTURE(tin_orders, comb, Scene::Comb, OrderDefinition::SeesOpp)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
 
 }  // namespace
 }  // namespace thalweg::bench

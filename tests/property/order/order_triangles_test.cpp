@@ -1,4 +1,5 @@
 // All triangles of order at most k, against all valid triangles of the oracle.
+#include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/order_triangles.hpp>
 
@@ -141,6 +142,24 @@ TEST(OrderTriangles, AreAmongAllTriplesWithLongConstraints) {
 }
 TEST(OrderTriangles, AreAmongAllTriplesWithManyConstraints) {
   compare_with_all_triples(120, 120, 30);
+}
+
+TEST(OrderTriangles, ReportProgressAndStop) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  const Tin ground = larger_ground(random, 2000, 50, 15);
+  const ConstrainedOrder order(ground);
+  double last = -1;
+  Progress progress([&](const std::string&, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  });
+  progress.start_phase("orders");
+  find_order_triangles(order, {}, progress);
+  EXPECT_EQ(last, 1);
+  Progress stopped;
+  stopped.cancel();
+  EXPECT_THROW(find_order_triangles(order, {}, stopped), Error);
 }
 
 }  // namespace
