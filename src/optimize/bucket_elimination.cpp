@@ -12,6 +12,7 @@
 #include "optimize/bucket_elimination.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace thalweg {
 
@@ -28,6 +29,15 @@ class Eliminator {
       std::uint32_t earliest = kNone;
       for (const Literal& literal : clause) {
         if (literal.variable != kNone) earliest = std::min(earliest, at(literal.variable));
+      }
+      return earliest;
+    });
+    std::vector<std::uint32_t> numbers(sum.tables != nullptr ? sum.tables->size() : 0);
+    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
+    tables_ = assign(std::span<const std::uint32_t>(numbers), [&](std::uint32_t table) {
+      std::uint32_t earliest = kNone;
+      for (const std::uint32_t variable : sum_.tables->scope(table)) {
+        earliest = std::min(earliest, at(variable));
       }
       return earliest;
     });
@@ -89,8 +99,14 @@ class Eliminator {
       const std::size_t both = bit(i, pair.a) | bit(i, pair.b);
       for (std::size_t e = both; e < size; e = (e + 1) | both) add(table_[e], pair.weight);
     }
+    for (const std::uint32_t index : tables_.at(i)) {
+      project(i, sum_.tables->scope(index));
+      const std::span<const Weight<Criteria>> entries = sum_.tables->entries(index);
+      for (std::size_t e = 0; e < size; ++e) add(table_[e], entries[projection_[e]]);
+    }
     for (std::uint32_t m = message_at_[i]; m != kNone;) {
-      receive(i, messages_[m]);
+      project(i, order_.scope_at(messages_[m].sender));
+      for (std::size_t e = 0; e < size; ++e) table_[e] += messages_[m].table[projection_[e]];
       const std::uint32_t next = messages_[m].next;
       messages_[m].next = free_;
       free_ = m;
@@ -109,20 +125,19 @@ class Eliminator {
     }
   }
 
-  void receive(std::uint32_t i, const Message& message) {
+  /// For each entry of table i, the entry of a term over `from` under the same labels.
+  void project(std::uint32_t i, std::span<const std::uint32_t> from) {
     projection_.assign(1, 0);
     projection_.resize(table_.size());
-    std::size_t known = 1, rank = 0;
-    const std::span<const std::uint32_t> from = order_.scope_at(message.sender);
+    std::size_t known = 1;
     const auto extend = [&](std::uint32_t variable) {
-      const bool shared = rank < from.size() && from[rank] == variable;
-      const std::uint32_t shift = shared ? std::uint32_t{1} << rank++ : 0;
+      const auto place = std::find(from.begin(), from.end(), variable);
+      const std::uint32_t shift = place == from.end() ? 0 : std::uint32_t{1} << (place - from.begin());
       for (std::size_t e = 0; e < known; ++e) projection_[known + e] = projection_[e] + shift;
       known *= 2;
     };
     extend(order_.order[i]);
     for (const std::uint32_t variable : order_.scope_at(i)) extend(variable);
-    for (std::size_t e = 0; e < table_.size(); ++e) table_[e] += message.table[projection_[e]];
   }
 
   void minimise_table(std::uint32_t i) {
@@ -171,7 +186,7 @@ class Eliminator {
   const TermSum<Criteria>& sum_;
   const EliminationOrder& order_;
   const Progress& progress_;
-  Buckets pairs_, clauses_;
+  Buckets pairs_, clauses_, tables_;
   std::vector<std::uint32_t> message_at_;  ///< by position: first of the bucket's messages
   std::vector<Message> messages_;
   std::uint32_t free_ = kNone;
@@ -195,6 +210,12 @@ std::vector<NodePair> interactions(const TermSum<Criteria>& sum) {
           edges.emplace_back(clause[i].variable, clause[j].variable);
         }
       }
+    }
+  }
+  for (std::size_t t = 0; sum.tables != nullptr && t < sum.tables->size(); ++t) {
+    const std::span<const std::uint32_t> scope = sum.tables->scope(t);
+    for (std::size_t i = 0; i < scope.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) edges.emplace_back(scope[i], scope[j]);
     }
   }
   return edges;

@@ -40,6 +40,7 @@ struct TermSum {
   std::span<const Cost<Criteria>> unary;
   std::span<const PairCost<Criteria>> pairs;
   std::span<const Clause> clauses;
+  const Tables<Criteria>* tables = nullptr;  ///< null: none
 };
 
 /// The pairs of variables that share a term.

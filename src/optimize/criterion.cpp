@@ -116,6 +116,22 @@ double vertical_squares(const Face& face, Scale scale, const Reference& referenc
          scale.vertical;
 }
 
+/// 1 if all edges at an interior vertex are strictly convex. Van Kreveld, Loeffler, Silveira 2010, where
+/// edges are convex or reflex; one at which the surface is flat is neither.
+std::int64_t convex_vertex(const Star& star) {
+  return !star.on_rim && star.convex == star.edges ? 1 : 0;
+}
+
+/// 1 if an interior vertex has both a strictly convex and a strictly reflex edge. Same source.
+std::int64_t mixed_vertex(const Star& star) {
+  return !star.on_rim && star.convex > 0 && star.reflex > 0 ? 1 : 0;
+}
+
+/// Number of edges at a vertex, on the rim too. Same source. Their sum is twice the number of edges.
+std::int64_t degree(const Star& star) {
+  return star.edges;
+}
+
 constexpr auto kMinimise = Direction::Minimise;
 constexpr auto kMaximise = Direction::Maximise;
 
@@ -170,6 +186,25 @@ constexpr std::array kDeclarations = {
                 nullptr,
                 nullptr,
                 vertical_squares},
+    Declaration{{Criterion::ConvexVertices, "convex-vertices", "count", kMaximise, Coupling::VertexStar,
+                 Combination::Count},
+                nullptr,
+                nullptr,
+                nullptr,
+                convex_vertex},
+    Declaration{{Criterion::MixedVertices, "mixed-vertices", "count", kMinimise, Coupling::VertexStar,
+                 Combination::Count},
+                nullptr,
+                nullptr,
+                nullptr,
+                mixed_vertex},
+    Declaration{
+        {Criterion::MaxDegree, "max-degree", "edges", kMinimise, Coupling::VertexStar, Combination::Max},
+        nullptr,
+        nullptr,
+        nullptr,
+        degree,
+        true},
 };
 
 constexpr auto kTraits = [] {

@@ -17,6 +17,15 @@ using EdgeTerm = double (*)(const Face&, const Face&, Scale);
 /// The term of a triangle that is measured against a reference, and what it leaves for the rim of the TIN.
 using ReferenceTerm = double (*)(const Face&, Scale, const Reference&);
 
+/// What meets at a vertex. The surface is strictly convex or reflex at an edge, or flat, decided exactly.
+struct Star {
+  std::uint32_t edges = 0;  ///< rim edges included
+  std::uint32_t convex = 0, reflex = 0;
+  bool on_rim = false;
+};
+/// The term of a vertex that is in a triangle: a whole number.
+using VertexTerm = std::int64_t (*)(const Star&);
+
 /// Of the terms there is the one that the coupling says (of a triangle's, one); for Plateau there is none
 /// (plateaus.cpp).
 struct Declaration {
@@ -24,6 +33,8 @@ struct Declaration {
   TriangleTerm triangle = nullptr;
   EdgeTerm edge = nullptr;
   ReferenceTerm against_reference = nullptr;
+  VertexTerm vertex = nullptr;
+  bool sum_is_fixed = false;  ///< no label changes the sum of all terms
 };
 
 const Declaration& declaration_of(Criterion criterion);

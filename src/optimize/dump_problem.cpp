@@ -96,6 +96,7 @@ class Writer {
     progress.check();
     out_ << "\"functions\": {\n\"constant\": {\"scope\": [], \"costs\": [" << constant() << "]}";
     write_costs();
+    write_tables();
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       progress.check();
       for (std::size_t i = 0; i < blocks_[b].ends.size(); ++i) write_link(b, i);
@@ -105,16 +106,32 @@ class Writer {
 
  private:
   [[nodiscard]] std::int64_t constant() const {
-    return problem_.sums.empty() ? 0 : static_cast<std::int64_t>(problem_.delaunay[0]);
+    if (problem_.sums.empty()) return 0;
+    auto sum = static_cast<std::int64_t>(problem_.delaunay[0]);
+    for (std::size_t i = 0; i < problem_.labelling.tables.size(); ++i) sum += least_of_table(i);
+    return sum;
+  }
+  [[nodiscard]] std::int64_t least_of_table(std::size_t i) const {
+    std::int64_t least = 0;
+    for (const Weight<Criteria>& entry : problem_.labelling.tables.entries(i)) {
+      least = std::min(least, entry[0]);
+    }
+    return least;
   }
   [[nodiscard]] std::int64_t weight(std::size_t i) const {
     return problem_.sums.empty() ? 0 : problem_.labelling.weight[i][0];
   }
 
   [[nodiscard]] std::int64_t more_than_any() const {
-    std::int64_t sum = constant() + 1;
+    std::int64_t sum = std::abs(constant()) + 1;
     for (const Cost<Criteria>& cost : problem_.labelling.unary) sum += std::abs(cost.level[level_]);
     for (std::size_t i = 0; i < problem_.labelling.weight.size(); ++i) sum += std::abs(weight(i));
+    const Tables<Criteria>& tables = problem_.labelling.tables;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      std::int64_t most = 0;
+      for (const Weight<Criteria>& entry : tables.entries(i)) most = std::max(most, std::abs(entry[0]));
+      sum += most;
+    }
     return sum;
   }
 
@@ -150,6 +167,24 @@ class Writer {
         out_ << ",\n\"w" << i << "\": {\"scope\": [\"q" << p << "\", \"q" << q << "\"], \"costs\": [0, 0, 0, "
              << weight(i) << "]}";
       }
+    }
+  }
+
+  /// In a file the last variable of a scope turns fastest, here the first. Not all versions of toulbar2 take
+  /// negative costs in large scopes, so what all labels cost alike is part of the constant.
+  void write_tables() {
+    const Tables<Criteria>& tables = problem_.labelling.tables;
+    for (std::size_t i = 0; i < tables.size() && !problem_.sums.empty(); ++i) {
+      out_ << ",\n\"t" << i << "\": {\"scope\": [";
+      const std::span<const std::uint32_t> scope = tables.scope(i);
+      for (std::size_t j = scope.size(); j-- > 0;) out_ << "\"q" << scope[j] << (j == 0 ? "\"" : "\", ");
+      out_ << "], \"costs\": [";
+      const char* separator = "";
+      for (const Weight<Criteria>& entry : tables.entries(i)) {
+        out_ << separator << entry[0] - least_of_table(i);
+        separator = ", ";
+      }
+      out_ << "]}";
     }
   }
 

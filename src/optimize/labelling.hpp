@@ -3,6 +3,8 @@
 /// The problem behind the optimiser, without geometry: a label 0 or 1 for each variable.
 
 #include "optimize/cost.hpp"
+#include "optimize/label.hpp"
+#include "optimize/tables.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +15,6 @@ namespace thalweg {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-enum class Label : std::uint8_t { Zero = 0, One = 1, Open = 2 };
-
-constexpr Label other(Label label) {
-  return label == Label::Zero ? Label::One : Label::Zero;
-}
-
 /// An edge between two nodes of a multigraph that exists while its variable has the label `helpful`.
 struct Link {
   std::uint32_t a = kNone;  ///< kNone: the variable has no edge
@@ -28,8 +24,8 @@ struct Link {
 };
 
 /// Wanted: the labelling of least cost among those whose links connect all that the links together can
-/// connect. Cost = sum of unary[q] over labels 1 + sum of weights over neighbours that both have label 1; any
-/// function of pairs of labels has this form, up to a constant.
+/// connect. Cost = sum of unary[q] over labels 1 + sum of weights over neighbours that both have label 1 +
+/// sum of tables; any function of pairs of labels has the form of the first two, up to a constant.
 template <std::size_t Criteria>
 struct Labelling {
   std::vector<Cost<Criteria>> unary;
@@ -38,6 +34,7 @@ struct Labelling {
   std::vector<std::uint32_t> first = {0};
   std::vector<std::uint32_t> neighbour;
   std::vector<Weight<Criteria>> weight;
+  Tables<Criteria> tables;       ///< indexed
   std::vector<Link> link;        ///< by variable; empty where nothing has to be connected
   std::uint32_t node_count = 0;  ///< of the multigraph
 

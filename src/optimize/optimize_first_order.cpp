@@ -69,6 +69,8 @@ class Run {
       std::fill(cost.level.begin() + level, cost.level.begin() + Criteria, 0);
     }
     for (Weight<Criteria>& weight : part.weight) std::fill(weight.begin() + level, weight.end(), 0);
+    for (std::size_t later = level; later < Criteria; ++later) part.tables.clear_level(later);
+    part.tables.index(part.size());
     if (problem_.counts_pits && problem_.sums_before_pits <= level) {
       part.link = problem_.plateaus.link;
       part.node_count = problem_.plateaus.node_count;
@@ -83,7 +85,8 @@ class Run {
     const auto worst = [&](const Solution<Criteria>& solution) {
       return extreme_of(scan_, objective, part.first, solution.label, progress_);
     };
-    const Solution<Criteria> before = solve<Criteria>(part, problem_.rank, limits_, progress_);
+    const Solution<Criteria> before = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
+    known_ = before.label;
     Settled& settled = settled_[level];
     settled = {extreme.delaunay, worst(before), extreme.values.front()};
     auto low = extreme.values.begin();
@@ -91,9 +94,10 @@ class Run {
     while (low < high) {
       const auto middle = low + (high - low) / 2;
       const std::int64_t constant = count_excess(scan_, objective, *middle, level, part, progress_);
-      const Solution<Criteria> trial = solve<Criteria>(part, problem_.rank, limits_, progress_);
+      const Solution<Criteria> trial = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
       if (same_before(trial.value, before.value, level) && trial.value.level[level] + constant == 0) {
         settled.limit = worst(trial);
+        known_ = trial.label;
         high = std::lower_bound(extreme.values.begin(), middle, settled.limit);
         continue;
       }
@@ -117,11 +121,11 @@ class Run {
     Labelling<Criteria>& labelling = problem_.labelling;
     labelling.link = problem_.plateaus.link;
     labelling.node_count = problem_.plateaus.node_count;
-    solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_);
+    solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
     if (problem_.sums_before_pits == 0) return;
     labelling.link.clear();
     labelling.node_count = 0;
-    Solution<Criteria> free = solve<Criteria>(labelling, problem_.rank, limits_, progress_);
+    Solution<Criteria> free = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
     for (std::size_t i = 0; i < problem_.sums_before_pits; ++i) {
       if (solution_.value.level[i] != free.bound.level[i]) {
         solution_ = std::move(free);
@@ -203,6 +207,7 @@ class Run {
   FirstOrderProblem<Criteria> problem_;
   TermScan scan_;
   std::array<Settled, Criteria> settled_{};
+  std::vector<Label> known_;  ///< labels within all limits settled so far; empty if there are none
   Solution<Criteria> solution_;
 };
 

@@ -12,8 +12,37 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 namespace thalweg {
+
+namespace {
+
+/// Each once, by its first variable in the selection; scopes ascend.
+template <std::size_t Criteria>
+void restrict_tables(const Tables<Criteria>& tables, const Reduction& fixed, const Selection& selection,
+                     Tables<Criteria>& out) {
+  if (tables.empty()) return;
+  std::vector<Table<Criteria>> found;
+  for (const std::uint32_t q : selection.variables) {
+    for (const std::uint32_t t : tables.of(q)) {
+      Table<Criteria> table = condition<Criteria>(tables, t, fixed.label);
+      const auto later = [&](std::uint32_t p) { return selection.index[p] < selection.index[q]; };
+      if (std::find(table.scope.begin(), table.scope.end(), q) == table.scope.end()) continue;
+      if (std::any_of(table.scope.begin(), table.scope.end(), later)) continue;
+      for (std::uint32_t& variable : table.scope) variable = selection.index[variable];
+      found.push_back(with_sorted_scope(table));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Table<Criteria>& a, const Table<Criteria>& b) {
+    return std::tie(a.scope, a.entry) < std::tie(b.scope, b.entry);
+  });
+  for (const Table<Criteria>& table : found) out.append(table);
+  out.index(selection.variables.size());
+}
+
+}  // namespace
 
 template <std::size_t Criteria>
 Labelling<Criteria> restrict_to(const Labelling<Criteria>& problem, const Reduction& fixed,
@@ -52,6 +81,7 @@ Labelling<Criteria> restrict_to(const Labelling<Criteria>& problem, const Reduct
     link.b = number_of(link.b);
   }
   part.node_count = static_cast<std::uint32_t>(number.size());
+  restrict_tables(problem.tables, fixed, selection, part.tables);
   return part;
 }
 
@@ -64,6 +94,9 @@ Cost<Criteria> cost_of(const Labelling<Criteria>& problem, std::span<const Label
     for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
       if (problem.neighbour[i] < q && label[problem.neighbour[i]] == Label::One) add(cost, problem.weight[i]);
     }
+  }
+  for (std::size_t t = 0; t < problem.tables.size(); ++t) {
+    add(cost, problem.tables.entries(t)[slice_of(problem.tables.scope(t), label).base]);
   }
   return cost;
 }
@@ -93,7 +126,7 @@ Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Cri
   std::vector<std::uint32_t> numbers;
   if (count > problem.size()) {
     const std::vector<Clause> clauses = split_cuts(short_cuts, {}, 0);
-    const TermSum<Criteria> sum{problem.size(), problem.unary, pairs, clauses};
+    const TermSum<Criteria> sum{problem.size(), problem.unary, pairs, clauses, &problem.tables};
     const auto unlimited = static_cast<std::uint32_t>(problem.size());
     numbers = tree_numbers(find_elimination_order(problem.size(), interactions(sum), unlimited));
   }
@@ -103,14 +136,15 @@ Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Cri
 template <std::size_t Criteria>
 std::optional<ExactLabels> solve_exactly(const Labelling<Criteria>& problem, std::uint32_t width_limit,
                                          const Progress& progress) {
-  if (problem.neighbour.empty()) return ExactLabels{span_at_least_cost(problem)};
+  if (problem.neighbour.empty() && problem.tables.empty()) return ExactLabels{span_at_least_cost(problem)};
   const std::vector<PairCost<Criteria>> pairs = pairs_of(problem);
   const std::vector<Label> none(problem.size(), Label::Open);
   std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
   ExactLabels exact;
   while (true) {
     const Clauses clauses = shorten<Criteria>(problem, pairs, cuts);
-    const TermSum<Criteria> sum{clauses.variable_count, problem.unary, pairs, clauses.clauses};
+    const TermSum<Criteria> sum{clauses.variable_count, problem.unary, pairs, clauses.clauses,
+                                &problem.tables};
     const EliminationOrder order =
         find_elimination_order(clauses.variable_count, interactions(sum), width_limit);
     if (!order.complete) return std::nullopt;

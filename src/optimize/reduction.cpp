@@ -20,6 +20,9 @@
 
 #include <thalweg/base/assert.hpp>
 
+#include <algorithm>
+#include <utility>
+
 namespace thalweg {
 
 namespace {
@@ -58,6 +61,11 @@ class Reducer {
       const bool negative = is_negative<Criteria>(weight);
       if (label == Label::One || negative) add(lo, weight);
       if (label == Label::One || !negative) add(hi, weight);
+    }
+    for (const std::uint32_t i : problem_.tables.of(q)) {
+      const auto [least, most] = spread<Criteria>(problem_.tables, i, q, out_.label);
+      add(lo, least);
+      add(hi, most);
     }
     const Cost<Criteria> zero{};
     if (!(lo < zero)) return Label::Zero;
@@ -107,6 +115,9 @@ class Reducer {
       out_.nodes.unite(problem_.link[q].a, problem_.link[q].b);
     }
     for (std::size_t i = problem_.first[q]; i < problem_.first[q + 1]; ++i) enqueue(problem_.neighbour[i]);
+    for (const std::uint32_t i : problem_.tables.of(q)) {
+      for (const std::uint32_t p : problem_.tables.scope(i)) enqueue(p);
+    }
   }
 
   /// Frees loops, fixes bridges, numbers the other blocks. Returns whether anything changed.
@@ -188,7 +199,8 @@ Partition split(const Labelling<Criteria>& problem, const Reduction& reduction) 
   }
 
   Partition parts;
-  std::vector<std::uint8_t> reached(problem.size(), 0), block_reached(reduction.block_count, 0);
+  std::vector<std::uint8_t> reached(problem.size(), 0), block_reached(reduction.block_count, 0),
+      table_reached(problem.tables.size(), 0);
   const auto reach = [&](std::uint32_t q) {
     if (reached[q] != 0 || reduction.label[q] != Label::Open) return;
     reached[q] = 1;
@@ -200,6 +212,16 @@ Partition split(const Labelling<Criteria>& problem, const Reduction& reduction) 
       const std::uint32_t q = parts.variable[i];
       for (std::size_t j = problem.first[q]; j < problem.first[q + 1]; ++j) {
         if (problem.weight[j] != Weight<Criteria>{}) reach(problem.neighbour[j]);
+      }
+      for (const std::uint32_t t : problem.tables.of(q)) {
+        if (std::exchange(table_reached[t], 1) != 0) continue;
+        const std::vector<std::uint32_t> scope =
+            condition<Criteria>(problem.tables, t, reduction.label).scope;
+        // Seen from a variable on which it depends no more, a table joins nothing yet.
+        if (std::find(scope.begin(), scope.end(), q) == scope.end())
+          table_reached[t] = 0;
+        else
+          std::for_each(scope.begin(), scope.end(), reach);
       }
       const std::uint32_t block = reduction.block[q];
       if (block == kNone || block_reached[block] != 0) continue;

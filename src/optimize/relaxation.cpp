@@ -29,6 +29,7 @@ class Relaxation {
     const std::vector<Label> none(problem.size(), Label::Open);
     const std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
     pairs_ = pairs_of(problem);
+    tables_ = problem.tables;
     Clauses shortened = shorten<Criteria>(problem, pairs_, cuts);
     clauses_ = std::move(shortened.clauses);
     unary_ = problem.unary;
@@ -78,7 +79,7 @@ class Relaxation {
     std::vector<std::uint32_t> copies;
   };
 
-  [[nodiscard]] TermSum<Criteria> sum() const { return {unary_.size(), unary_, pairs_, clauses_}; }
+  [[nodiscard]] TermSum<Criteria> sum() const { return {unary_.size(), unary_, pairs_, clauses_, &tables_}; }
 
   [[nodiscard]] std::size_t ones(const Original& original) const {
     return static_cast<std::size_t>(
@@ -107,6 +108,13 @@ class Relaxation {
     for (Clause& clause : clauses_) {
       for (Literal& literal : clause) replace(literal.variable);
     }
+    for (std::size_t t = 0; t < tables_.size(); ++t) {
+      for (std::size_t j = 0; j < tables_.scope(t).size(); ++j) {
+        std::uint32_t variable = tables_.scope(t)[j];
+        replace(variable);
+        tables_.replace(t, j, variable);
+      }
+    }
     for (const Original& original : originals_) {
       Cost<Criteria>& whole = unary_[original.variable];
       const std::int64_t share = whole.level[0] / static_cast<std::int64_t>(original.copies.size());
@@ -123,6 +131,7 @@ class Relaxation {
   std::vector<Cost<Criteria>> unary_;
   std::vector<PairCost<Criteria>> pairs_;
   std::vector<Clause> clauses_;
+  Tables<Criteria> tables_;
   std::vector<Original> originals_;
   EliminationOrder order_;
   std::vector<Label> copy_label_;

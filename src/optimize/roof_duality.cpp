@@ -24,6 +24,7 @@
 #include "optimize/piece.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace thalweg {
 
@@ -130,8 +131,13 @@ class Network {
 
 template <std::size_t Criteria>
 RoofDual find_roof_dual(const Labelling<Criteria>& problem, const Progress& progress) {
-  Network network(problem);
   RoofDual dual;
+  if (problem.tables.reach_level(0)) {
+    dual.label.assign(problem.size(), Label::Open);
+    dual.bound = std::numeric_limits<std::int64_t>::min();
+    return dual;
+  }
+  Network network(problem);
   dual.bound = network.bound(progress);
   const std::vector<bool> none(2 * problem.size() + 2, false);
   const std::vector<bool> all = network.reach(none);

@@ -17,7 +17,8 @@ struct RoofDual {
 
 /// Looks at the first level of costs alone, so that what is fixed may not cut off the best of lower levels:
 /// only labels whose change costs something at the first level are kept; and only such that no link is lost
-/// that may be needed. Complexity: a maximum flow with 2 n + 2 nodes.
+/// that may be needed. Where tables reach the first level it finds nothing. Complexity: a maximum flow with 2
+/// n + 2 nodes.
 template <std::size_t Criteria>
 RoofDual find_roof_dual(const Labelling<Criteria>& problem, const Progress& progress);
 

@@ -24,7 +24,8 @@ class WidePieces {
   WidePieces(const SolverLimits& limits, std::size_t whole_size, const Progress& progress)
       : limits_(limits), whole_size_(whole_size), progress_(progress) {}
 
-  Solution<Criteria> solve(const Labelling<Criteria>& piece) const {
+  /// `known` is empty, or a labelling of the piece.
+  Solution<Criteria> solve(const Labelling<Criteria>& piece, std::span<const Label> known) const {
     const RoofDual dual = find_roof_dual(piece, progress_);
     std::vector<std::uint32_t> open;
     for (std::uint32_t q = 0; q < piece.size(); ++q) {
@@ -33,12 +34,14 @@ class WidePieces {
     if (open.size() == piece.size()) {
       const double share = static_cast<double>(piece.size()) / static_cast<double>(whole_size_);
       const auto effort = static_cast<std::uint64_t>(share * static_cast<double>(limits_.effort));
-      return bracket(piece, dual.bound, limits_.width, effort, progress_);
+      return bracket(piece, known, dual.bound, limits_.width, effort, progress_);
     }
     std::vector<std::uint32_t> rank(open.size());
     std::iota(rank.begin(), rank.end(), std::uint32_t{0});
     const Labelling<Criteria> rest = fix_labels<Criteria>(piece, dual.label, open);
-    Solution<Criteria> solution = decompose<Criteria>(rest, rank, limits_.width, handler(), progress_);
+    const std::vector<Label> known_rest = select(known, open);
+    Solution<Criteria> solution =
+        decompose<Criteria>(rest, rank, limits_.width, handler(known_rest), progress_);
     const Cost<Criteria> gap = solution.value - solution.bound;
     std::vector<Label> label = dual.label;
     for (std::size_t i = 0; i < open.size(); ++i) label[open[i]] = solution.label[i];
@@ -49,11 +52,21 @@ class WidePieces {
     return solution;
   }
 
-  [[nodiscard]] WideSolver<Criteria> handler() const {
-    return [this](const Labelling<Criteria>& piece, std::span<const std::uint32_t>) { return solve(piece); };
+  [[nodiscard]] WideSolver<Criteria> handler(std::span<const Label> known) const {
+    return [this, known](const Labelling<Criteria>& piece, std::span<const std::uint32_t> variables) {
+      return solve(piece, select(known, variables));
+    };
   }
 
  private:
+  static std::vector<Label> select(std::span<const Label> known, std::span<const std::uint32_t> variables) {
+    std::vector<Label> selected;
+    for (std::size_t i = 0; !known.empty() && i < variables.size(); ++i) {
+      selected.push_back(known[variables[i]]);
+    }
+    return selected;
+  }
+
   const SolverLimits& limits_;
   std::size_t whole_size_;
   const Progress& progress_;
@@ -63,16 +76,16 @@ class WidePieces {
 
 template <std::size_t Criteria>
 Solution<Criteria> solve(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                         const SolverLimits& limits, const Progress& progress) {
+                         const SolverLimits& limits, const Progress& progress, std::span<const Label> known) {
   const WidePieces<Criteria> wide(limits, problem.size(), progress);
-  return decompose<Criteria>(problem, rank, limits.width, wide.handler(), progress);
+  return decompose<Criteria>(problem, rank, limits.width, wide.handler(known), progress);
 }
 
 template Solution<1> solve(const Labelling<1>&, std::span<const std::uint32_t>, const SolverLimits&,
-                           const Progress&);
+                           const Progress&, std::span<const Label>);
 template Solution<2> solve(const Labelling<2>&, std::span<const std::uint32_t>, const SolverLimits&,
-                           const Progress&);
+                           const Progress&, std::span<const Label>);
 template Solution<4> solve(const Labelling<4>&, std::span<const std::uint32_t>, const SolverLimits&,
-                           const Progress&);
+                           const Progress&, std::span<const Label>);
 
 }  // namespace thalweg

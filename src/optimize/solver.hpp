@@ -11,9 +11,11 @@ struct SolverLimits {
   std::uint64_t effort = 0;  ///< table entries for all that is wider, in proportion to the size of pieces
 };
 
-/// Arguments and promises as for `decompose`.
+/// Arguments and promises as for `decompose`. `known` is empty, or a labelling where pieces that are too wide
+/// may start.
 template <std::size_t Criteria>
 Solution<Criteria> solve(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                         const SolverLimits& limits, const Progress& progress);
+                         const SolverLimits& limits, const Progress& progress,
+                         std::span<const Label> known = {});
 
 }  // namespace thalweg

@@ -6,6 +6,8 @@
 // is added at once.
 #include "optimize/sums.hpp"
 
+#include "optimize/vertex_terms.hpp"
+
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
@@ -113,11 +115,49 @@ void refuse_overflow(const Labelling<Criteria>& labelling, std::size_t level, co
   for (const Weight<Criteria>& weight : labelling.weight) {
     most += std::abs(static_cast<double>(weight[level])) / 2;
   }
+  for (std::size_t i = 0; i < labelling.tables.size(); ++i) {
+    double largest = 0;
+    for (const Weight<Criteria>& entry : labelling.tables.entries(i)) {
+      largest = std::max(largest, std::abs(static_cast<double>(entry[level])));
+    }
+    most += largest;
+  }
   if (most < 0x1p62) return;
   throw Error(ErrorCode::SizeLimit, "the values of " + objective.name() +
                                         " are too large to be added exactly; split the area, or scale it by "
                                         "a small weight, such as 0.001*" +
                                         objective.name());
+}
+
+}  // namespace
+
+namespace {
+
+/// Adds all terms of a criterion to a level. Returns their value on the given TIN.
+template <std::size_t Criteria>
+WideSteps add_terms(const TermScan& scan, const Declaration& declaration, Measure measure, std::size_t level,
+                    Labelling<Criteria>& labelling, const Progress& progress) {
+  if (declaration.vertex == nullptr) {
+    SumSink<Criteria> sink(labelling, level, measure);
+    scan.run(declaration, labelling.first, sink, progress);
+    return sink.delaunay();
+  }
+  const VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
+  WideSteps delaunay = 0;
+  for (const std::int64_t value : terms.constants) delaunay += measure(static_cast<double>(value));
+  for (std::size_t i = 0; i < terms.tables.size(); ++i) {
+    const std::span<const std::uint32_t> scope = terms.tables.scope(i);
+    Table<Criteria> table{{scope.begin(), scope.end()}, {}};
+    for (const Weight<1>& value : terms.tables.entries(i)) {
+      table.entry.emplace_back()[level] = measure(static_cast<double>(value[0]));
+    }
+    const std::int64_t kept = table.entry.front()[level];
+    delaunay += kept;
+    for (Weight<Criteria>& entry : table.entry) entry[level] -= kept;
+    table = without_idle(std::move(table));
+    if (!table.scope.empty()) labelling.tables.append(table);
+  }
+  return delaunay;
 }
 
 }  // namespace
@@ -128,10 +168,10 @@ WideSteps add_objective(const TermScan& scan, const Objective& objective, std::s
   WideSteps delaunay = 0;
   for (const Objective::Part& part : objective.parts) {
     const double sign = objective.direction() == Direction::Maximise ? -1 : 1;
-    SumSink<Criteria> sink(labelling, level, {sign * part.weight, std::nullopt});
-    scan.run(declaration_of(part.criterion), labelling.first, sink, progress);
-    delaunay += sink.delaunay();
+    delaunay += add_terms(scan, declaration_of(part.criterion), {sign * part.weight, std::nullopt}, level,
+                          labelling, progress);
   }
+  labelling.tables.index(labelling.size());
   refuse_overflow(labelling, level, objective);
   return delaunay;
 }
@@ -171,6 +211,19 @@ class ExtremeSink {
       std::transform(f.begin(), f.end(), steps.begin(), sink_.measure_);
       note(steps[0], *std::min_element(steps.begin(), steps.end()));
       values_.insert(values_.end(), steps.begin() + 1, steps.end());
+    }
+    /// No labelling has a worst term less than this.
+    void at_least(std::int64_t value) {
+      least_ = std::max(least_, sink_.measure_(static_cast<double>(value)));
+    }
+    void table(std::span<const Weight<1>> entries) {
+      std::vector<std::int64_t> steps;
+      for (const Weight<1>& entry : entries) steps.push_back(sink_.measure_(static_cast<double>(entry[0])));
+      const std::int64_t kept = steps.front();
+      std::sort(steps.begin(), steps.end());
+      steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+      note(kept, steps.front());
+      values_.insert(values_.end(), steps.begin(), steps.end());
     }
 
    private:
@@ -245,12 +298,30 @@ class LabelledSink {
   std::int64_t worst_ = kLowest;
 };
 
+/// Of all terms under labels 0, rounded up.
+std::int64_t mean_of(const VertexTerms& terms) {
+  std::int64_t sum = 0;
+  for (const std::int64_t value : terms.constants) sum += value;
+  for (std::size_t i = 0; i < terms.tables.size(); ++i) sum += terms.tables.entries(i).front()[0];
+  const auto count = static_cast<std::int64_t>(terms.constants.size() + terms.tables.size());
+  return count == 0 ? 0 : (sum + count - 1) / count;
+}
+
 }  // namespace
 
 Extreme find_extreme(const TermScan& scan, const Objective& objective, std::span<const std::uint32_t> first,
                      const Progress& progress) {
   ExtremeSink sink(sign_of(objective));
-  scan.run(declaration_of(objective.parts.front().criterion), first, sink, progress);
+  const Declaration& declaration = declaration_of(objective.parts.front().criterion);
+  if (declaration.vertex == nullptr) {
+    scan.run(declaration, first, sink, progress);
+  } else {
+    const VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
+    ExtremeSink::Block block(sink);
+    for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
+    for (std::size_t i = 0; i < terms.tables.size(); ++i) block.table(terms.tables.entries(i));
+    if (declaration.sum_is_fixed) block.at_least(mean_of(terms));
+  }
   return sink.take();
 }
 
@@ -258,7 +329,18 @@ std::int64_t extreme_of(const TermScan& scan, const Objective& objective,
                         std::span<const std::uint32_t> first, std::span<const Label> label,
                         const Progress& progress) {
   LabelledSink sink(sign_of(objective), label);
-  scan.run(declaration_of(objective.parts.front().criterion), first, sink, progress);
+  const Declaration& declaration = declaration_of(objective.parts.front().criterion);
+  if (declaration.vertex == nullptr) {
+    scan.run(declaration, first, sink, progress);
+  } else {
+    const VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
+    LabelledSink::Block block(sink);
+    for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
+    for (std::size_t i = 0; i < terms.tables.size(); ++i) {
+      const Slice slice = slice_of(terms.tables.scope(i), label);
+      block.constant(static_cast<double>(terms.tables.entries(i)[slice.base][0]));
+    }
+  }
   return sink.worst();
 }
 
@@ -267,9 +349,11 @@ std::int64_t count_excess(const TermScan& scan, const Objective& objective, std:
                           std::size_t level, Labelling<Criteria>& labelling, const Progress& progress) {
   for (Cost<Criteria>& cost : labelling.unary) cost.level[level] = 0;
   for (Weight<Criteria>& weight : labelling.weight) weight[level] = 0;
-  SumSink<Criteria> sink(labelling, level, {sign_of(objective), most});
-  scan.run(declaration_of(objective.parts.front().criterion), labelling.first, sink, progress);
-  return static_cast<std::int64_t>(sink.delaunay());
+  labelling.tables.clear_level(level);
+  const WideSteps excess = add_terms(scan, declaration_of(objective.parts.front().criterion),
+                                     {sign_of(objective), most}, level, labelling, progress);
+  labelling.tables.index(labelling.size());
+  return static_cast<std::int64_t>(excess);
 }
 
 template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,

@@ -21,13 +21,15 @@ class TermScan {
   TermScan(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
            std::span<const std::uint32_t> owner, Scale scale, const Reference* reference)
       : tin_(tin), quadrilaterals_(quadrilaterals), owner_(owner), scale_(scale), reference_(reference) {}
+  [[nodiscard]] const Tin& tin() const { return tin_; }
+  [[nodiscard]] std::span<const Quadrilateral> quadrilaterals() const { return quadrilaterals_; }
+  [[nodiscard]] std::span<const std::uint32_t> owner() const { return owner_; }
 
   /// Rows of neighbours, sides in order, both ways. Complexity: linear, on all threads.
   struct Rows {
     std::vector<std::uint32_t> first = {0}, neighbour;
   };
   [[nodiscard]] Rows lay_out_rows(const Progress& progress) const;
-
   /// Calls, on all threads, a `Block` of the sink, made anew for each block of quadrilaterals or triangles:
   ///   constant(value)                 a term that no label changes,
   ///   single(q, f0, f1)               one that the label of q decides,
@@ -98,7 +100,6 @@ void TermScan::run(const Declaration& declaration, std::span<const std::uint32_t
   if (declaration.against_reference != nullptr) typename Sink::Block(sink).constant(left_on_rim(progress));
 }
 
-/// Terms of triangles that are in no quadrilateral, and of edges between two such.
 template <class Block>
 void TermScan::scan_triangle(TriangleId t, const Declaration& declaration, Block& block) const {
   if (owner_[t.index()] != kNone) return;

@@ -1,7 +1,8 @@
 // Between a labelling and a bound.
 //
-// 1. Start: the labels of a relaxation (relaxation.cpp); where they fail a cut, all links of that cut are
-// chosen.
+// 1. Start: the labels of a relaxation (relaxation.cpp), or those known before, if they cost less; where
+// labels
+//    fail a cut, all links of that cut are chosen.
 // 2. Improve: keep the labels of a set of variables without which the problem is narrow, and find the best
 // labels of
 //    all others together, exactly. The variables that were kept least often are kept next, so that each
@@ -30,7 +31,7 @@ class Improver {
   Improver(const Labelling<Criteria>& problem, std::uint32_t width_limit, const Progress& progress)
       : problem_(problem), width_limit_(width_limit), progress_(progress), times_(problem.size(), 0) {
     const std::vector<PairCost<Criteria>> pairs = pairs_of(problem);
-    edges_ = interactions(TermSum<Criteria>{problem.size(), problem.unary, pairs, {}});
+    edges_ = interactions(TermSum<Criteria>{problem.size(), problem.unary, pairs, {}, &problem.tables});
     rank_.resize(problem.size());
     std::iota(rank_.begin(), rank_.end(), std::uint32_t{0});
   }
@@ -90,6 +91,15 @@ class Improver {
   std::vector<std::uint32_t> rank_;
 };
 
+/// The labelling with all links chosen of the cuts that it fails.
+template <std::size_t Criteria>
+std::vector<Label> connected(const Labelling<Criteria>& problem, std::vector<Label>&& label) {
+  for (const Cut& cut : failed_cuts(problem.link, problem.node_count, label)) {
+    for (const Literal& literal : cut) label[literal.variable] = literal.label;
+  }
+  return std::move(label);
+}
+
 /// The lowest that a level can be, whatever the labels.
 template <std::size_t Criteria>
 std::int64_t least_of_level(const Labelling<Criteria>& problem, std::size_t level) {
@@ -98,21 +108,28 @@ std::int64_t least_of_level(const Labelling<Criteria>& problem, std::size_t leve
   if (level >= Criteria) return sum;
   for (const PairCost<Criteria>& pair : pairs_of(problem))
     sum += std::min<std::int64_t>(pair.weight[level], 0);
+  for (std::size_t t = 0; t < problem.tables.size(); ++t) {
+    std::int64_t least = problem.tables.entries(t).front()[level];
+    for (const Weight<Criteria>& entry : problem.tables.entries(t)) least = std::min(least, entry[level]);
+    sum += least;
+  }
   return sum;
 }
 
 }  // namespace
 
 template <std::size_t Criteria>
-Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::int64_t first_level_bound,
-                           std::uint32_t width_limit, std::uint64_t effort, const Progress& progress) {
+Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::span<const Label> known,
+                           std::int64_t first_level_bound, std::uint32_t width_limit, std::uint64_t effort,
+                           const Progress& progress) {
   std::uint32_t width = width_limit;
   while (width > 1 && (problem.size() << width) > effort / kRounds) --width;
   Cost<Criteria> unknown = Cost<Criteria>::infeasible();
   Relaxed<Criteria> relaxed = relax(problem, unknown, width, 0, progress);
-  std::vector<Label> label = std::move(relaxed.label);
-  for (const Cut& cut : failed_cuts(problem.link, problem.node_count, label)) {
-    for (const Literal& literal : cut) label[literal.variable] = literal.label;
+  std::vector<Label> label = connected(problem, std::move(relaxed.label));
+  if (!known.empty()) {
+    std::vector<Label> other = connected(problem, {known.begin(), known.end()});
+    if (cost_of<Criteria>(problem, other) < cost_of<Criteria>(problem, label)) label = std::move(other);
   }
   Solution<Criteria> solution =
       Improver<Criteria>(problem, width, progress).run(std::move(label), effort / 3);
@@ -131,11 +148,11 @@ Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::int64_t firs
   return solution;
 }
 
-template Solution<1> bracket(const Labelling<1>&, std::int64_t, std::uint32_t, std::uint64_t,
-                             const Progress&);
-template Solution<2> bracket(const Labelling<2>&, std::int64_t, std::uint32_t, std::uint64_t,
-                             const Progress&);
-template Solution<4> bracket(const Labelling<4>&, std::int64_t, std::uint32_t, std::uint64_t,
-                             const Progress&);
+template Solution<1> bracket(const Labelling<1>&, std::span<const Label>, std::int64_t, std::uint32_t,
+                             std::uint64_t, const Progress&);
+template Solution<2> bracket(const Labelling<2>&, std::span<const Label>, std::int64_t, std::uint32_t,
+                             std::uint64_t, const Progress&);
+template Solution<4> bracket(const Labelling<4>&, std::span<const Label>, std::int64_t, std::uint32_t,
+                             std::uint64_t, const Progress&);
 
 }  // namespace thalweg

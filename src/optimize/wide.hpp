@@ -6,11 +6,12 @@
 
 namespace thalweg {
 
-/// `first_level_bound`: a known bound of the first level. Pre: the problem has weights.
-/// Complexity: O(effort) table entries, at least a few rounds. The result depends on nothing but the
-/// arguments.
+/// `known` is empty, or a labelling to start from. `first_level_bound`: a known bound of the first level.
+/// Pre: the problem has weights or tables. Complexity: O(effort) table entries, at least a few rounds. The
+/// result depends on nothing but the arguments.
 template <std::size_t Criteria>
-Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::int64_t first_level_bound,
-                           std::uint32_t width_limit, std::uint64_t effort, const Progress& progress);
+Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::span<const Label> known,
+                           std::int64_t first_level_bound, std::uint32_t width_limit, std::uint64_t effort,
+                           const Progress& progress);
 
 }  // namespace thalweg

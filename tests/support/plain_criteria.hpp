@@ -3,6 +3,7 @@
 /// What a TIN is worth in each criterion, by plain code from the criteria's definitions, in whole steps of
 /// 2^-32; less is better. Shares nothing with the optimiser.
 
+#include "support/plain_stars.hpp"
 #include "support/plain_surface.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ class PlainCriteria {
     if (name == "edge-length") return sum_of_edges([&](auto&, auto&, auto& edge) { return length(edge); });
     if (name == "area-ratio-sum") return sum_of_edges([&](auto& a, auto& b, auto&) { return ratio(a, b); });
     if (name == "convex-edges")
-      return -sum_of_edges([&](auto& a, auto& b, auto& edge) { return convex(a, b, edge) ? 1.0L : 0.0L; });
+      return -sum_of_edges([&](auto& a, auto& b, auto& edge) { return bend(a, b, edge) > 0 ? 1.0L : 0.0L; });
     if (name == "normal-angle-max")
       return most_of_edges(
           [&](auto& a, auto& b) { return angle(a, b) * 180 / std::numbers::pi_v<long double>; });
@@ -35,7 +36,8 @@ class PlainCriteria {
     if (name == "flat-triangles") return of_triangles([&](auto& t) { return flat(t) ? 1.0L : 0.0L; }, true);
     if (name == "max-area") return of_triangles([&](auto& t) { return area(t); }, false);
     if (name == "max-angle") return of_triangles([&](auto& t) { return angles(t).back(); }, false);
-    return of_triangles([&](auto& t) { return -angles(t).front(); }, false);  // min-angle
+    if (name == "min-angle") return of_triangles([&](auto& t) { return -angles(t).front(); }, false);
+    return of_vertices(name);
   }
 
  private:
@@ -80,12 +82,14 @@ class PlainCriteria {
   [[nodiscard]] bool flat(const Triangle& t) const {
     return tin_.height(t[0]) == tin_.height(t[1]) && tin_.height(t[1]) == tin_.height(t[2]);
   }
-  /// The apex of b lies strictly below the plane of a; whole heights and coordinates make this exact.
-  [[nodiscard]] bool convex(const Triangle& a, const Triangle& b, const Edge& edge) const {
+  /// 1 if the apex of b lies strictly below the plane of a, -1 if above; whole heights and coordinates make
+  /// this exact.
+  [[nodiscard]] int bend(const Triangle& a, const Triangle& b, const Edge& edge) const {
     const VertexId apex =
         *std::find_if(b.begin(), b.end(), [&](VertexId v) { return v != edge.first && v != edge.second; });
     const Vector n = normal(a), p = at(apex), o = at(a[0]);
-    return n[0] * (p[0] - o[0]) + n[1] * (p[1] - o[1]) + n[2] * (p[2] - o[2]) < 0;
+    const long double above = n[0] * (p[0] - o[0]) + n[1] * (p[1] - o[1]) + n[2] * (p[2] - o[2]);
+    return above < 0 ? 1 : above > 0 ? -1 : 0;
   }
   [[nodiscard]] std::array<long double, 3> angles(const Triangle& t) const {
     std::array<long double, 3> found{};
@@ -122,6 +126,15 @@ class PlainCriteria {
       most = std::max(most, rounded(term(t)));
     }
     return summed ? sum : most;
+  }
+
+  [[nodiscard]] Steps of_vertices(const std::string& name) const {
+    PlainStars stars;
+    for (const auto& [edge, triangles] : edges_) {
+      const bool rim = triangles.size() == 1;
+      stars.add(edge, rim, rim ? 0 : bend(triangles[0], triangles[1], edge));
+    }
+    return rounded(static_cast<long double>(stars.value(name)));
   }
 
   const Tin& tin_;

@@ -5,6 +5,7 @@
 #include "optimize/decomposition.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <vector>
@@ -14,8 +15,9 @@ namespace thalweg::test {
 struct LabellingShape {
   std::size_t variables = 10;
   double pairs_per_variable = 1.5;
-  std::size_t nodes = 0;  ///< of the graph of links; 0: no links
-  int range = 6;          ///< costs are from -range to range, so that many tie
+  std::size_t nodes = 0;   ///< of the graph of links; 0: no links
+  std::size_t tables = 0;  ///< terms of up to five variables
+  int range = 6;           ///< costs are from -range to range, so that many tie
 };
 
 template <std::size_t Criteria>
@@ -44,6 +46,19 @@ Labelling<Criteria> random_labelling(const LabellingShape& shape, Random& random
     }
     problem.first.push_back(static_cast<std::uint32_t>(problem.neighbour.size()));
   }
+  for (std::size_t i = 0; i < shape.tables && count > 0; ++i) {
+    Table<Criteria> table;
+    for (std::uint32_t q = 0; q < count; ++q) table.scope.push_back(q);
+    std::shuffle(table.scope.begin(), table.scope.end(), random.engine());
+    table.scope.resize(random.integer<std::size_t>(1, std::min<std::size_t>(5, count)));
+    table.entry.resize(std::size_t{1} << table.scope.size());
+    for (Weight<Criteria>& entry : table.entry) {
+      for (std::int64_t& level : entry)
+        level = random.integer(0, 1) * random.integer(-shape.range, shape.range);
+    }
+    problem.tables.append(table);
+  }
+  problem.tables.index(count);
   if (shape.nodes == 0) return problem;
   problem.node_count = static_cast<std::uint32_t>(shape.nodes);
   for (std::uint32_t q = 0; q < count; ++q) {
@@ -90,6 +105,14 @@ Cost<Criteria> plain_cost(const Labelling<Criteria>& problem, const std::vector<
     }
   }
   for (std::int64_t& level : twice.level) level /= 2;
+  for (std::size_t t = 0; t < problem.tables.size(); ++t) {
+    std::size_t index = 0, bit = 1;
+    for (const std::uint32_t q : problem.tables.scope(t)) {
+      index += label[q] == Label::One ? bit : 0;
+      bit *= 2;
+    }
+    for (std::size_t i = 0; i < Criteria; ++i) twice.level[i] += problem.tables.entries(t)[index][i];
+  }
   return twice;
 }
 

@@ -25,13 +25,17 @@ enum class Criterion : std::uint8_t {
   MaxArea,
   MaxAngle,
   MinAngle,
-  VerticalError
+  VerticalError,
+  ConvexVertices,
+  MixedVertices,
+  MaxDegree
 };
 
 /// What one term of a criterion depends on.
 enum class Coupling : std::uint8_t {
   OneTriangle,  ///< a triangle
   Edge,         ///< the two triangles at an interior edge, so at most two quadrilaterals
+  VertexStar,   ///< the triangles at a vertex, so all quadrilaterals that have it as a corner
   Plateau       ///< all edges that leave a connected set of vertices of equal height
 };
 

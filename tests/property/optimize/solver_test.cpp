@@ -64,6 +64,20 @@ TEST(Solver, FindsTheLeastCostThatConnects) {
   }
 }
 
+TEST(Solver, FindsTheLeastCostWithTables) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 400 && !HasFailure(); ++i) {
+    const LabellingShape shape{.variables = random.integer<std::size_t>(1, 10),
+                               .pairs_per_variable = random.real(0, 2),
+                               .nodes = random.integer<std::size_t>(0, 5),
+                               .tables = random.integer<std::size_t>(1, 8),
+                               .range = random.integer(1, 8)};
+    expect_exact(random_labelling<1>(shape, random));
+    expect_exact(random_labelling<2>(shape, random));
+  }
+}
+
 TEST(Solver, SpansWithoutWeights) {
   Random random;
   SCOPED_TRACE(random.trace());
@@ -82,6 +96,7 @@ TEST(Solver, BracketsWhatIsTooWide) {
     const LabellingShape shape{.variables = 10,
                                .pairs_per_variable = random.real(1, 4),
                                .nodes = random.integer<std::size_t>(0, 5),
+                               .tables = i % 3 == 0 ? random.integer<std::size_t>(1, 5) : 0,
                                .range = 20};
     for (const std::uint32_t width : {1U, 2U, 3U}) {
       met += expect_bracket(random_labelling<1>(shape, random), width, 20000) ? 1 : 0;
