@@ -11,13 +11,16 @@
 // 4. Local minima after other criteria: solve as if they came first. If the sums that precede them are proved
 //    to be no larger without links, the result is best in them, and has fewest pits of all triangulations. If
 //    not, solve without links, and report the pits of that with the fewest of all as bound.
+#include "optimize/conflict.hpp"
 #include "optimize/first_order_problem.hpp"
+#include "optimize/proof_steps.hpp"
 #include "optimize/solver.hpp"
 
 #include <thalweg/optimize/optimize.hpp>
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +46,7 @@ class Run {
       std::size_t reported, Progress& progress)
       : criteria_(std::span(options.criteria).first(reported)),
         limits_{options.width_limit, options.effort},
+        proof_(options.proof),
         progress_(progress),
         problem_(begin(tin, quadrilaterals, options, progress)),
         scan_(tin, quadrilaterals, problem_.owner,
@@ -51,6 +55,7 @@ class Run {
   OptimizeResult run() {
     progress_.start_phase("choose diagonals");
     choose();
+    if (proof_ != nullptr) write_proof();
     progress_.advance(1);
     return report();
   }
@@ -135,6 +140,50 @@ class Run {
     }
   }
 
+  /// A stage for each extreme, and one for the sums between two of them. Local minima after other criteria,
+  /// and what follows them, have none.
+  void write_proof() {
+    std::size_t end = 0;
+    while (end < criteria_.size() && (end == 0 || !criteria_[end].is(Criterion::LocalMinima))) ++end;
+    std::size_t level = 0;
+    for (std::size_t i = 0; i < end; ++i) {
+      if (criteria_[i].is(Criterion::LocalMinima)) continue;
+      if (criteria_[i].is_extreme()) {
+        write_extreme_stage(i + 1, level);
+      } else if (i + 1 == end || criteria_[i + 1].is_extreme()) {
+        write_stage(i + 1, up_to(level + 1));
+      }
+      ++level;
+    }
+  }
+
+  /// That nothing is one value better than the bound: by itself, or given the criteria before.
+  void write_extreme_stage(std::size_t criteria, std::size_t level) {
+    const Objective& objective = problem_.sums[level];
+    Labelling<Criteria> part = up_to(level);
+    const Extreme extreme = find_extreme(scan_, objective, part.first, progress_);
+    const auto bound = std::lower_bound(extreme.values.begin(), extreme.values.end(), settled_[level].bound);
+    if (bound == extreme.values.begin()) {
+      *proof_ << "stage " << criteria << " alone\n";
+      return;
+    }
+    const std::int64_t better = *(bound - 1);
+    if (const auto conflict = find_conflict(scan_, objective, part.first, better, part.size(), progress_)) {
+      *proof_ << "stage " << criteria << " alone\nconflict";
+      for (const std::uint32_t variable : *conflict) *proof_ << ' ' << variable;
+      *proof_ << '\n';
+      return;
+    }
+    count_excess(scan_, objective, better, level, part, progress_);
+    write_stage(criteria, part);
+  }
+
+  void write_stage(std::size_t criteria, const Labelling<Criteria>& problem) {
+    std::ostringstream steps;
+    if (!write_steps<Criteria>(steps, problem, problem_.rank, limits_.width, progress_)) return;
+    *proof_ << "stage " << criteria << '\n' << steps.str();
+  }
+
   [[nodiscard]] OptimizeResult report() const {
     OptimizeResult result;
     result.quadrilaterals = problem_.rank.size();
@@ -203,6 +252,7 @@ class Run {
 
   std::span<const Objective> criteria_;
   SolverLimits limits_;
+  std::ostream* proof_;
   Progress& progress_;
   FirstOrderProblem<Criteria> problem_;
   TermScan scan_;

@@ -142,11 +142,10 @@ std::optional<ExactLabels> solve_exactly(const Labelling<Criteria>& problem, std
   std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
   ExactLabels exact;
   while (true) {
-    const Clauses clauses = shorten<Criteria>(problem, pairs, cuts);
+    Clauses clauses = shorten<Criteria>(problem, pairs, cuts);
     const TermSum<Criteria> sum{clauses.variable_count, problem.unary, pairs, clauses.clauses,
                                 &problem.tables};
-    const EliminationOrder order =
-        find_elimination_order(clauses.variable_count, interactions(sum), width_limit);
+    EliminationOrder order = find_elimination_order(clauses.variable_count, interactions(sum), width_limit);
     if (!order.complete) return std::nullopt;
     exact.width = std::max(exact.width, order.width);
     exact.table_entries += table_entries(order);
@@ -156,6 +155,8 @@ std::optional<ExactLabels> solve_exactly(const Labelling<Criteria>& problem, std
     const std::vector<Cut> failed = failed_cuts(problem.link, problem.node_count, minimum.label);
     if (failed.empty()) {
       exact.label = std::move(minimum.label);
+      exact.clauses = std::move(clauses.clauses);
+      exact.order = std::move(order);
       return exact;
     }
     cuts.insert(cuts.end(), failed.begin(), failed.end());

@@ -49,6 +49,8 @@ struct ExactLabels {
   std::vector<Label> label;
   std::uint32_t width = 0;
   std::uint64_t table_entries = 0;  ///< 0: no table was needed
+  std::vector<Clause> clauses;      ///< of the last table: those of the cuts, in their order
+  EliminationOrder order;
 };
 
 /// An optimal labelling, or nothing if that needs a table wider than the limit.

@@ -12,6 +12,7 @@
 
 #include "pipeline/digest.hpp"
 #include "pipeline/higher_order.hpp"
+#include "pipeline/proof_file.hpp"
 #include "pipeline/reference.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -64,6 +65,7 @@ RunOutputs::RunOutputs(const OutputConfig& config) {
   report = reserve(config.report_path);
   picture = reserve(config.picture_path);
   problem = reserve(config.problem_path);
+  proof = reserve(config.proof_path);
 }
 
 namespace {
@@ -236,9 +238,19 @@ std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labe
                   "; take a definition that knows of lines, such as pathcon or sees-opp");
 }
 
-void choose_first_order(Labelled& labelled, Progress& progress) {
+void choose_first_order(Labelled& labelled, const Terrain& terrain, const RunContext& run,
+                        Progress& progress) {
+  std::optional<ProofFile> proof;
+  if (!run.outputs.proof.empty()) {
+    proof.emplace(run.outputs.proof, run.output.proof_path,
+                  ProofSubject{labelled.delaunay, terrain.written, terrain.number, labelled.quadrilaterals,
+                               run.labelling});
+    labelled.options.proof = &proof->stages();
+  }
   labelled.result =
       optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
+  labelled.options.proof = nullptr;
+  if (proof) proof->finish();
   std::vector<HalfedgeId> flips;
   for (std::size_t q = 0; q < labelled.quadrilaterals.size(); ++q) {
     if (labelled.result.flipped[q] == 0) continue;
@@ -264,6 +276,9 @@ void choose_higher_order(Labelled& labelled, const FixedFaces& faces, const Labe
 Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
                           Progress& progress) {
   Labelled labelled;
+  if (run.labelling.order > 1 && !run.outputs.proof.empty()) {
+    throw Error(ErrorCode::Unsupported, "--proof is written for orders 0 and 1 only");
+  }
   if (std::find(terrain.keep.begin(), terrain.keep.end(), true) == terrain.keep.end()) {
     throw Error(ErrorCode::EmptyInput,
                 "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
@@ -305,7 +320,7 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
   if (run.labelling.order > 1) {
     choose_higher_order(labelled, faces, run.labelling, progress);
   } else {
-    choose_first_order(labelled, progress);
+    choose_first_order(labelled, terrain, run, progress);
   }
   progress.advance(1);
   seconds.optimize = run.watch.lap();

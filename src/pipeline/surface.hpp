@@ -35,7 +35,7 @@ struct RunOutputs {
   explicit RunOutputs(const OutputConfig& config);
 
   PendingOutputs pending;
-  std::string report, picture, problem;  ///< temporary paths; empty where none was asked for
+  std::string report, picture, problem, proof;  ///< temporary paths; empty where none was asked for
 };
 
 /// The ground and what of it is surface. Vertex ids serve the work: neighbours are close in memory.

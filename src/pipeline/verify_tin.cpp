@@ -151,7 +151,13 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
         plane.projected() ? plane.to_lonlat(file.points) : std::vector<Point2>();
     ReferencePoints reference;
     if (config.reference) reference = read_reference(*config.reference, crs, plane, progress);
-    const verify::Claims claims = report ? read_claims(*report) : verify::Claims();
+    verify::Claims claims = report ? read_claims(*report) : verify::Claims();
+    if (!config.proof_path.empty()) {
+      std::ifstream proof(config.proof_path, std::ios::binary);
+      if (!proof)
+        throw Error(ErrorCode::NotFound, config.proof_path + " cannot be opened; give what --proof wrote");
+      claims.proof = verify::read_proof(proof, config.proof_path);
+    }
     verify::Subject subject{.points = points,
                             .written = file.points,
                             .continuous = continuous,

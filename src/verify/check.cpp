@@ -12,6 +12,7 @@
 #include "verify/plain_mesh.hpp"
 #include "verify/plain_optimum.hpp"
 #include "verify/plain_orders.hpp"
+#include "verify/plain_proof.hpp"
 
 #include <thalweg/verify/verify.hpp>
 
@@ -123,8 +124,7 @@ class Checker {
     table_.add_count("edges", claims_.edges, edges.size());
     table_.add_count("constraint edges", claims_.constraint_edges, mesh_.constraints.size());
     if (claims_.digest) {
-      const std::string digest =
-          plain_digest(mesh_, subject_.written.empty() ? subject_.points : subject_.written);
+      const std::string digest = plain_digest(mesh_, written());
       const bool equal = digest == *claims_.digest;
       table_.add(
           "digest", equal ? Verdict::Holds : Verdict::Broken,
@@ -135,8 +135,6 @@ class Checker {
     }
     return !fault && !missing;
   }
-
-  [[nodiscard]] bool orders_known() const { return subject_.definition != OrderDefinition::Pathcon; }
 
   [[nodiscard]] bool polygon() const {
     return std::any_of(mesh_.constraints.begin(), mesh_.constraints.end(), [](const auto& edge) {
@@ -149,11 +147,13 @@ class Checker {
     progress_.start_phase("orders");
     const std::string claim = fmt::format("every triangle has order at most {} under {}", subject_.order,
                                           definition_name(subject_.definition));
-    if (!orders_known()) {
-      table_.add(claim, Verdict::NotChecked, "pathcon has no plain check");
+    const PlainOrders orders(mesh_, subject_.definition, polygon());
+    orders_known_ = orders.known();
+    if (!orders_known_) {
+      table_.add(claim, Verdict::NotChecked,
+                 "pathcon is counted only where the TIN is a polygon or has one rim");
       return;
     }
-    const PlainOrders orders(mesh_, subject_.definition, polygon());
     std::atomic<std::size_t> first{mesh_.triangles.size()};
     for_each_block(mesh_.triangles.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
@@ -175,7 +175,7 @@ class Checker {
   void check_structure() {
     progress_.start_phase("structure");
     delaunay_ = flip_to_delaunay(mesh_, progress_);
-    if (subject_.order == 1 && orders_known()) {
+    if (subject_.order == 1 && orders_known_) {
       const PlainOrders orders(delaunay_, subject_.definition, polygon());
       quadrilaterals_ = find_quadrilaterals(delaunay_, orders, progress_);
       table_.add_count(
@@ -185,6 +185,7 @@ class Checker {
     } else if (claims_.quadrilaterals && subject_.order > 0) {
       table_.add("first-order quadrilaterals", Verdict::NotChecked);
     }
+    if (claims_.proof) check_proof(*claims_.proof);
     const std::set<std::pair<Index, Index>> before = edges_of(delaunay_);
     std::size_t flipped = 0;
     for (const auto& edge : edges_of(mesh_)) flipped += before.contains(edge) ? 0 : 1;
@@ -194,6 +195,34 @@ class Checker {
                  flipped == 0 ? Verdict::Holds : Verdict::Broken,
                  flipped == 0 ? "" : fmt::format("{} of its edges are not Delaunay", flipped));
     }
+  }
+
+  /// Whose proof it is; if it is this terrain's, the quadrilaterals take its order.
+  void check_proof(const Proof& proof) {
+    std::string criteria;
+    for (const CriterionClaim& claim : claims_.criteria)
+      criteria += (criteria.empty() ? "" : ",") + claim.name;
+    auto ordered = in_order_of(proof, quadrilaterals_);
+    std::string fault;
+    if (!proof.complete || proof.quadrilateral_count != proof.quadrilaterals.size()) {
+      fault = "it is cut off";
+    } else if (proof.digest != plain_digest(mesh_, written())) {
+      fault = "it is of another terrain, with digest " + proof.digest;
+    } else if (proof.definition != definition_name(subject_.definition)) {
+      fault = "it is for definition " + proof.definition;
+    } else if (proof.criteria != criteria) {
+      fault = "it is for criteria " + proof.criteria;
+    } else if (!ordered && claims_.barred == 0) {
+      fault = "its quadrilaterals are not those of the terrain";
+    }
+    proof_fits_ = fault.empty();
+    table_.add("the proof is of this terrain and these criteria",
+               proof_fits_ ? Verdict::Holds : Verdict::Broken, fault);
+    if (ordered) quadrilaterals_ = std::move(*ordered);
+  }
+
+  [[nodiscard]] std::span<const Point2> written() const {
+    return subject_.written.empty() ? subject_.points : subject_.written;
   }
 
   [[nodiscard]] PlainScale scale() const {
@@ -247,8 +276,8 @@ class Checker {
          .scale = scale(),
          .reference = reference(),
          .order = subject_.order,
-         .structure_known = subject_.order == 0 || (subject_.order == 1 && orders_known())},
-                      claims_.criteria, progress_)) {
+         .structure_known = subject_.order == 0 || (subject_.order == 1 && orders_known_)},
+                      claims_.criteria, proof_fits_ ? &*claims_.proof : nullptr, progress_)) {
       table_.add(std::move(finding.claim), finding.verdict, std::move(finding.detail));
     }
   }
@@ -262,6 +291,8 @@ class Checker {
   PlainMesh mesh_;
   PlainMesh delaunay_;
   std::vector<PlainQuadrilateral> quadrilaterals_;
+  bool orders_known_ = false;
+  bool proof_fits_ = false;
   Table table_;
 };
 

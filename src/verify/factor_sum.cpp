@@ -156,17 +156,31 @@ void FactorSum::add_cost(Index q, const Cost& cost) {
   attach({{q}, {Cost{}, cost}});
 }
 
+Cost FactorSum::cost_of_both(const Factor& pair) {
+  return minus(plus(pair.table[3], pair.table[0]), plus(pair.table[1], pair.table[2]));
+}
+
+void FactorSum::split_pair(Index f) {
+  const Factor pair = factors_[f];
+  const Cost of_both = cost_of_both(pair);
+  constant_ = plus(constant_, pair.table[0]);
+  factors_[f].table = {Cost{}, Cost{}, Cost{}, of_both};
+  if (of_both == Cost{}) detach(f);
+  add_cost(pair.scope[0], minus(pair.table[1], pair.table[0]));
+  add_cost(pair.scope[1], minus(pair.table[2], pair.table[0]));
+}
+
 void FactorSum::split_pairs() {
-  const std::size_t count = factors_.size();
+  const auto count = static_cast<Index>(factors_.size());
   for (Index f = 0; f < count; ++f) {
-    if (factors_[f].scope.size() != 2) continue;
-    const std::vector<Cost> table = factors_[f].table;
-    const Index a = factors_[f].scope[0], b = factors_[f].scope[1];
-    constant_ = plus(constant_, table[0]);
-    const Cost of_a = minus(table[1], table[0]), of_b = minus(table[2], table[0]);
-    factors_[f].table = {Cost{}, Cost{}, Cost{}, minus(minus(table[3], table[0]), plus(of_a, of_b))};
-    add_cost(a, of_a);
-    add_cost(b, of_b);
+    if (factors_[f].scope.size() == 2) split_pair(f);
+  }
+}
+
+void FactorSum::split_loose_pairs() {
+  const auto count = static_cast<Index>(factors_.size());
+  for (Index f = 0; f < count; ++f) {
+    if (factors_[f].scope.size() == 2 && cost_of_both(factors_[f]) == Cost{}) split_pair(f);
   }
 }
 

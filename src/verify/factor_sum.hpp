@@ -52,9 +52,11 @@ class FactorSum {
   void add_factor(Factor factor);
   /// A cost paid if q is true.
   void add_cost(Index q, const Cost& cost);
-  /// Writes each factor of two variables as a constant, a cost of each variable when true, and a cost of
-  /// both.
+  /// Writes each factor of two variables as a constant, a cost of each variable when true, and a cost of both
+  /// if there is any.
   void split_pairs();
+  /// The same where both together cost nothing more.
+  void split_loose_pairs();
   /// Puts `fresh` for q in the factors whose other variables are exactly `others` (ascending); whether there
   /// was any.
   bool substitute(Index q, Index fresh, std::span<const Index> others);
@@ -64,6 +66,8 @@ class FactorSum {
   [[nodiscard]] Cost bound() const;
 
  private:
+  [[nodiscard]] static Cost cost_of_both(const Factor& pair);
+  void split_pair(Index f);
   void detach(Index factor);
   void attach(Factor factor);
   void replace(Index factor, Factor by);

@@ -11,12 +11,14 @@
 #include "verify/plain_optimum.hpp"
 
 #include "verify/plain_pits.hpp"
+#include "verify/plain_proof.hpp"
 #include "verify/plain_solver.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace thalweg::verify {
 
@@ -27,8 +29,13 @@ constexpr long double kSteps = 0x1p32L;
 
 class BoundChecker {
  public:
-  BoundChecker(const PlainProblem& problem, Progress& progress)
-      : problem_(problem), progress_(progress), plateaus_(problem.delaunay, problem.quadrilaterals) {}
+  BoundChecker(const PlainProblem& problem, std::span<const CriterionClaim> claims, const Proof* proof,
+               Progress& progress)
+      : problem_(problem),
+        claims_(claims),
+        proof_(proof),
+        progress_(progress),
+        plateaus_(problem.delaunay, problem.quadrilaterals) {}
 
   Finding check(const CriterionClaim& claim) {
     Finding finding{claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked, {}};
@@ -109,18 +116,118 @@ class BoundChecker {
       return;
     }
     sums_.push_back({.criterion = criterion, .place = sums_.size() + 1});
-    const auto cost = least(components_before());
+    const Stage* stage = stage_of(false);
+    if (stage != nullptr && !stage->bound.fault.empty()) {
+      finding.verdict = Verdict::Broken;
+      finding.detail = stage->bound.fault;
+      return;
+    }
+    const auto cost = stage != nullptr ? std::optional(stage->bound.bound) : least(components_before());
     if (!cost) {
       finding.detail = reason_ = "too wide for the plain solver";
       return;
     }
     const long double sign = criterion.maximised ? -1 : 1;
     const long double proved = static_cast<long double>((*cost)[sums_.back().place]) / kSteps;
-    const long double tolerance =
-        criterion.counts ? 0 : value_of(problem_.delaunay, problem_.scale, criterion).tolerance;
+    const long double tolerance = value_of(problem_.delaunay, problem_.scale, criterion).tolerance;
     const bool bounded = sign * claim.bound <= proved + tolerance;
     const bool reached = !claim.optimal || sign * claim.result <= proved + tolerance;
-    judge(bounded && reached, "the optimum is", sign * proved, finding);
+    judge(bounded && reached, stage != nullptr ? "the proof shows only" : "the optimum is", sign * proved,
+          finding);
+    if (stage != nullptr && finding.verdict == Verdict::Holds) finding.detail = "by the proof";
+  }
+
+  /// A stage of the proof, taken.
+  struct Stage {
+    std::vector<Component> components;
+    StageBound bound;
+  };
+
+  static std::int64_t steps_of(double value) {
+    return static_cast<std::int64_t>(std::floor(value * kSteps + 0.5L));
+  }
+  static std::int64_t slack_of(double value) {
+    constexpr std::int64_t kSlack = 2;  // steps: another correct rounding
+    return kSlack + static_cast<std::int64_t>(std::abs(value) * 1e-12 * kSteps);
+  }
+  /// Counts terms that are no better than the bound.
+  static Component no_better_than(const CriterionClaim& claim, const PlainCriterion& criterion,
+                                  std::size_t place) {
+    const std::int64_t slack = slack_of(claim.bound);
+    return {criterion, true,
+            steps_of(claim.bound) + (criterion.combines == Combines::Largest ? -slack : slack), place};
+  }
+  /// Counts terms that are worse than the result, among the broken conditions.
+  static Component worse_than(const CriterionClaim& claim, const PlainCriterion& criterion) {
+    const std::int64_t slack = slack_of(claim.bound) + 1;
+    return {criterion, true,
+            steps_of(claim.result) + (criterion.combines == Combines::Largest ? slack : -slack), 0};
+  }
+
+  /// The stage of the proof that bounds the present criterion; null if there is none.
+  const Stage* stage_of(bool extreme) {
+    if (proof_ == nullptr) return nullptr;
+    for (std::size_t i = 0; i < proof_->stages.size(); ++i) {
+      const ProofStage& stage = proof_->stages[i];
+      const bool fits = extreme ? stage.criteria == level_ + 1 : stage.criteria > level_ && !stage.alone;
+      if (!fits || stage.criteria > claims_.size()) continue;
+      const auto [at, fresh] = stages_.try_emplace(i);
+      if (fresh) take(stage, at->second);
+      return &at->second;
+    }
+    return nullptr;
+  }
+
+  void take(const ProofStage& stage, Stage& taken) {
+    std::vector<std::size_t> places;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < stage.criteria; ++i) {
+      const auto criterion = plain_criterion(claims_[i].name, problem_.reference);
+      const bool last = i + 1 == stage.criteria;
+      if (!criterion || (i > 0 && criterion->depends == Depends::OnPlateau) || place + 2 > Cost{}.size()) {
+        taken.bound.fault = "the proof has a stage for " + claims_[i].name + ", which no stage can bound";
+        return;
+      }
+      if (criterion->depends == Depends::OnPlateau) continue;
+      places.push_back(0);
+      if (stage.alone && !last) continue;
+      if (criterion->combines == Combines::Sum) {
+        taken.components.push_back({.criterion = *criterion, .place = places.back() = ++place});
+      } else if (last) {
+        taken.components.push_back(no_better_than(claims_[i], *criterion, places.back() = ++place));
+      } else {
+        taken.components.push_back(worse_than(claims_[i], *criterion));
+      }
+    }
+    taken.bound = take_steps(stage, problem_.quadrilaterals.size(), terms_of(problem_, taken.components),
+                             places, with_pits_ && !stage.alone ? &plateaus_ : nullptr, progress_);
+    if (taken.bound.fault.empty() && taken.bound.bound[0] != 0) {
+      taken.bound.fault = "the proof takes labels that break a condition";
+    }
+  }
+
+  /// The count must be positive while all sums before are at what they are claimed to be.
+  void judge_extreme(const Stage& stage, const CriterionClaim& claim, Finding& finding) {
+    bool holds = stage.bound.fault.empty() && stage.bound.bound[stage.components.back().place] > 0;
+    std::size_t next = 0;
+    for (const Component& component : stage.components) {
+      if (component.counts_beyond) continue;
+      while (plain_criterion(claims_[next].name, problem_.reference)->depends == Depends::OnPlateau ||
+             plain_criterion(claims_[next].name, problem_.reference)->combines != Combines::Sum) {
+        ++next;
+      }
+      const long double tolerance =
+          value_of(problem_.delaunay, problem_.scale, component.criterion).tolerance;
+      const long double shown = static_cast<long double>(stage.bound.bound[component.place]) / kSteps;
+      const double claimed = claims_[next++].result * (component.criterion.maximised ? -1 : 1);
+      holds = holds && claimed <= shown + tolerance;
+    }
+    finding.verdict = holds ? Verdict::Holds : Verdict::Broken;
+    finding.detail =
+        holds ? "by the proof"
+        : !stage.bound.fault.empty()
+            ? stage.bound.fault
+            : fmt::format("the proof does not show that nothing is better than {:.17g}", claim.bound);
   }
 
   void check_extreme(const CriterionClaim& claim, const PlainCriterion& criterion, Finding& finding) {
@@ -128,28 +235,29 @@ class BoundChecker {
       finding.detail = reason_ = "more criteria than the verifier's costs have components";
       return;
     }
-    constexpr std::int64_t kSlack = 2;  // steps: another correct rounding
-    const bool largest = criterion.combines == Combines::Largest;
-    const auto steps = [](double value) {
-      return static_cast<std::int64_t>(std::floor(value * kSteps + 0.5L));
-    };
-    const std::int64_t slack = kSlack + static_cast<std::int64_t>(std::abs(claim.bound) * 1e-12 * kSteps);
-    std::vector<Component> components = components_before();
-    components.push_back(
-        {criterion, true, steps(claim.bound) + (largest ? -slack : slack), sums_.size() + 1});
-    const auto cost = least(components);
-    if (!cost) {
-      finding.detail = reason_ = "too wide for the plain solver";
-      return;
+    const Stage* stage = stage_of(true);
+    if (stage != nullptr) {
+      judge_extreme(*stage, claim, finding);
+    } else {
+      std::vector<Component> components = components_before();
+      components.push_back(no_better_than(claim, criterion, sums_.size() + 1));
+      const auto cost = least(components);
+      if (!cost) {
+        finding.detail = reason_ = "too wide for the plain solver";
+        return;
+      }
+      judge((*cost)[sums_.size() + 1] > 0, "a labelling is better than", claim.bound, finding);
     }
-    judge((*cost)[sums_.size() + 1] > 0, "a labelling is better than", claim.bound, finding);
-    conditions_.push_back({criterion, true, steps(claim.result) + (largest ? slack + 1 : -slack - 1), 0});
+    conditions_.push_back(worse_than(claim, criterion));
   }
 
   const PlainProblem& problem_;
+  std::span<const CriterionClaim> claims_;
+  const Proof* proof_;
   Progress& progress_;
   PlainPlateaus plateaus_;
-  std::string reason_;  ///< why nothing more can be checked
+  std::map<std::size_t, Stage> stages_;  ///< by their number in the proof
+  std::string reason_;                   ///< why nothing more can be checked
   std::size_t level_ = 0;
   bool with_pits_ = false;
   std::vector<Factor> clauses_;
@@ -169,7 +277,7 @@ bool overlapping(const PlainProblem& problem) {
 }  // namespace
 
 std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const CriterionClaim> claims,
-                                  Progress& progress) {
+                                  const Proof* proof, Progress& progress) {
   std::vector<Finding> findings;
   if (claims.empty()) return findings;
   if (!problem.structure_known || overlapping(problem)) {
@@ -179,7 +287,7 @@ std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const C
     }
     return findings;
   }
-  BoundChecker checker(problem, progress);
+  BoundChecker checker(problem, claims, proof, progress);
   for (const CriterionClaim& claim : claims) findings.push_back(checker.check(claim));
   return findings;
 }

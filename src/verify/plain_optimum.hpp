@@ -12,8 +12,9 @@
 
 namespace thalweg::verify {
 
-/// One line for each criterion: its bound, given that the criteria before it are at their claimed values.
+/// One line for each criterion: its bound, given that the criteria before it are at their claimed values. By
+/// the steps of the proof, which is null or fits the problem, where it has any; else by the plain solver.
 std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const CriterionClaim> claims,
-                                  Progress& progress);
+                                  const Proof* proof, Progress& progress);
 
 }  // namespace thalweg::verify

@@ -90,6 +90,7 @@ PlainOrders::PlainOrders(const PlainMesh& mesh, OrderDefinition definition, bool
     edges_.file_segment(mesh.at(edge.first), mesh.at(edge.second), static_cast<Index>(constraints_.size()));
     constraints_.push_back(edge);
   }
+  if (definition == OrderDefinition::Pathcon) flood_.emplace(mesh, polygon);
   if (!polygon) return;
   fans_.resize(mesh.xy.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -127,6 +128,7 @@ void PlainOrders::for_points_inside(const Corners& t, const F& f) const {
 }
 
 std::size_t PlainOrders::count(const Corners& t, std::size_t most) const {
+  if (flood_) return flood_->count(t, most);
   std::size_t counted = 0;
   for_points_inside(t, [&](Index p) {
     if (counts(t, p)) ++counted;

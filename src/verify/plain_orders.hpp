@@ -5,6 +5,7 @@
 /// Source: Silveira, van Kreveld, Towards a Definition of Higher Order Constrained Delaunay Triangulations,
 /// section 2, with the sight and tie rules of the README.
 
+#include "verify/plain_flood.hpp"
 #include "verify/plain_grid.hpp"
 #include "verify/plain_mesh.hpp"
 
@@ -19,9 +20,11 @@ namespace thalweg::verify {
 class PlainOrders {
  public:
   /// `polygon`: constraint edges of kinds boundary and hole bound the ground, and sights stay inside it.
-  /// Pre: the mesh is sound and outlives this object; the definition is not pathcon.
+  /// Pre: the mesh is sound and outlives this object.
   PlainOrders(const PlainMesh& mesh, OrderDefinition definition, bool polygon);
 
+  /// False under pathcon if the mesh does not cover the ground on which paths go; then nothing can be asked.
+  [[nodiscard]] bool known() const { return !flood_ || flood_->covers_ground(); }
   /// Whether at most k vertices count for the counter-clockwise triangle. Pre: it is valid.
   [[nodiscard]] bool at_most(const Corners& t, std::size_t k) const;
   /// The number of vertices that count, but no more than `most`.
@@ -42,6 +45,7 @@ class PlainOrders {
   const PlainMesh& mesh_;
   OrderDefinition definition_;
   bool polygon_;
+  std::optional<PlainFlood> flood_;  ///< pathcon
   PlainGrid points_;
   PlainGrid edges_;
   std::vector<std::pair<Index, Index>> constraints_;

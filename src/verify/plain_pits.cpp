@@ -42,7 +42,8 @@ PlainPlateaus::PlainPlateaus(const PlainMesh& delaunay, std::span<const PlainQua
     if (delaunay.z[b] > delaunay.z[a]) drained[b] = true;
   }
   for (const auto& [edge, kind] : delaunay.constraints) {
-    if (has(kind, EdgeKind::Lake)) drained[edge.first] = drained[edge.second] = true;  // counted as lakes
+    const bool level = delaunay.z[edge.first] == delaunay.z[edge.second];
+    if (has(kind, EdgeKind::Lake) && level) drained[edge.first] = drained[edge.second] = true;  // a lake
   }
   drained_ = static_cast<Index>(n);
   for (Index v = 0; v < n; ++v) {

@@ -62,16 +62,21 @@ class Ply:
 
 
 def build(name, sources, *options):
-    subprocess.run([BINARY, "build", *sources, f"{name}.ply", "--report", f"{name}.json", "-q", *options], check=True)
+    subprocess.run([BINARY, "build", *sources, f"{name}.ply", "--report", f"{name}.json", "--proof", f"{name}.proof", "-q",
+                    "--overwrite", *options], check=True)
     return Ply(f"{name}.ply"), json.loads(pathlib.Path(f"{name}.json").read_text())
 
 
-def verify(tin, report):
+def verify(tin, report, proof=None):
     pathlib.Path("report.json").write_text(json.dumps(report))
     if not isinstance(tin, str):
         tin.write("tin.ply")
         tin = "tin.ply"
-    done = subprocess.run([BINARY, "verify", tin, "--report", "report.json", "-f", "json"], capture_output=True)
+    options = []
+    if proof is not None:
+        pathlib.Path("changed.proof").write_text(proof)
+        options = ["--proof", "changed.proof"]
+    done = subprocess.run([BINARY, "verify", tin, "--report", "report.json", "-f", "json", *options], capture_output=True)
     lines = json.loads(done.stdout)["findings"]
     broken = [line["claim"] + ": " + line["detail"] for line in lines if line["verdict"] == "broken"]
     unchecked = [line["claim"] for line in lines if line["verdict"] == "not checked"]
@@ -85,8 +90,8 @@ def try_terrain(name, sources, other_report):
     assert not broken and not unchecked, (name, broken, unchecked)
     print(f"accepted {name}: {len(tin.vertices)} vertices")
 
-    def reject(what, changed_tin, changed_report, expected):
-        found, _, _ = verify(changed_tin, changed_report)
+    def reject(what, changed_tin, changed_report, expected, changed_proof=None):
+        found, _, _ = verify(changed_tin, changed_report, changed_proof)
         assert any(expected in line for line in found), f"{name}: {what} was not rejected as '{expected}': {found}"
         print(f"rejected {name}: {what}: {found[0][:100]}")
 
@@ -110,7 +115,7 @@ def try_terrain(name, sources, other_report):
     reject("the report of another terrain", f"{name}.ply", other_report, "digest")
 
     # A true report of a TIN that is not the smoothest, said to be it.
-    _, claims = build("rough", sources, "--optimize", "local-minima", "--overwrite")
+    _, claims = build("rough", sources, "--optimize", "local-minima")
     claims["criteria"].append(dict(report["criteria"][1], optimal=False))
     _, _, lines = verify("rough.ply", claims)
     detail = next(line["detail"] for line in lines if line["claim"] == "normal-angle-sum, result")
@@ -118,6 +123,29 @@ def try_terrain(name, sources, other_report):
     assert verify("rough.ply", claims)[0] == []
     claims["criteria"][1].update(bound=claims["criteria"][1]["result"], optimal=True)
     reject("a forged optimum", "rough.ply", claims, "normal-angle-sum, optimal")
+    proof = pathlib.Path(f"{name}.proof").read_text()
+    reject("a forged optimum, by the true proof", "rough.ply", claims, "the proof shows only", proof)
+    try_proof(name, proof, report, reject)
+
+
+def try_proof(name, proof, report, reject):
+    broken, unchecked, lines = verify(f"{name}.ply", report, proof)
+    assert not broken and not unchecked, (name, broken, unchecked)
+    assert next(line["detail"] for line in lines if line["claim"] == "normal-angle-sum, optimal") == "by the proof"
+    print(f"accepted {name}: its proof of {len(proof)} bytes")
+    tin = f"{name}.ply"
+    reject("a proof of another terrain", tin, report, "another terrain", pathlib.Path("other.proof").read_text())
+    reject("a proof cut off", tin, report, "cut off", proof[:proof.rindex("end")])
+    lines = proof.splitlines(keepends=True)
+    first = next(i for i, line in enumerate(lines) if line.startswith("eliminate"))
+    reject("a proof without its last steps", tin, report, "the proof shows only", "".join(lines[:first] + ["end\n"]))
+    fixed = next(i for i, line in enumerate(lines) if line.startswith("fix"))
+    signs = lines[fixed].replace("+", "*").replace("-", "+").replace("*", "-")
+    reject("a proof with the other labels fixed", tin, report, "normal-angle-sum, optimal", "".join(lines[:fixed] + [signs] + lines[fixed + 1:]))
+    cut = next(i for i, line in enumerate(lines) if line.startswith("cut"))
+    wrong = lines[cut].replace("+", "*").replace("-", "+").replace("*", "-")
+    reject("a proof with a cut that is none", tin, report, "cut nothing", "".join(lines[:cut] + [wrong] + lines[cut + 1:]))
+    reject("a proof of other criteria", tin, report, "it is for criteria", proof.replace("local-minima,normal", "local-minima,other-normal"))
 
 
 def lines_of(folder):

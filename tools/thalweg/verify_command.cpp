@@ -26,6 +26,8 @@ void add_verify_command(CLI::App& app) {
       app.add_subcommand("verify", "re-check a TIN against what it claims, by slow and plain code");
   command->add_option("TIN", a->config.input, "TIN file")->required();
   command->add_option("--report", a->config.report_path, "the JSON report whose claims are checked");
+  command->add_option("--proof", a->config.proof_path,
+                      "the proof that --proof of build wrote, checked step by step; needs --report");
   command->add_option("--definition", a->definition,
                       "which constrained order (default: the report's, else sees-opp)");
   command
@@ -44,6 +46,9 @@ void add_verify_command(CLI::App& app) {
     if (!a->reference.empty()) a->config.reference = parse_source(a->reference);
     for (const std::string& file : a->points) a->config.points.push_back(parse_source(file));
     apply_sources(a->sources, a->config.read, a->config.lines);
+    if (!a->config.proof_path.empty() && a->config.report_path.empty()) {
+      throw Error(ErrorCode::Usage, "--proof proves what a report claims; give --report too");
+    }
     if (!a->definition.empty()) a->config.definition = parse_definition(a->definition);
     const VerifyResult result = verify_tin(a->config, progress_of(a->common));
     if (a->common.format == Format::Json) {

@@ -30,6 +30,9 @@ struct OptimizeOptions {
   /// Work allowed on what is wider than that, in table entries: a count, so the result is the same
   /// everywhere.
   std::uint64_t effort = 2'000'000'000;
+  /// Where the stages of a proof go, in the words of thalweg/verify/proof.hpp; null: nowhere. What is proved
+  /// is solved twice then.
+  std::ostream* proof = nullptr;
 };
 
 /// How good the result is in one criterion. Sums are exact sums of terms, each rounded once to 2^-32 of its

@@ -28,6 +28,7 @@ struct OutputConfig {
   std::string report_path;   ///< JSON report; empty: none ("-" is the caller's business)
   std::string picture_path;  ///< .png, .svg, .pdf; empty: none
   std::string problem_path;  ///< labelling problem, .cfn; empty: none
+  std::string proof_path;    ///< proof of the criteria's bounds, for verify; empty: none
 };
 
 /// How the triangulation is chosen.

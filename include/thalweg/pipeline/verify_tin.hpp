@@ -16,6 +16,7 @@ namespace thalweg {
 struct VerifyConfig {
   std::string input;                          ///< TIN file
   std::string report_path;                    ///< JSON report; empty: only what needs none is checked
+  std::string proof_path;                     ///< what --proof wrote; empty: bounds are proved again
   std::optional<OrderDefinition> definition;  ///< none: the report's, else sees-opp
   std::optional<unsigned> order;              ///< none: the report's, else 1
   std::optional<SourceSpec> reference;        ///< what vertical-error is measured against

@@ -9,6 +9,7 @@
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/order/definition.hpp>
+#include <thalweg/verify/proof.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -42,6 +43,7 @@ struct Claims {
   std::size_t barred = 0;
   std::vector<CriterionClaim> criteria;
   std::optional<PitsClaim> pits_delaunay, pits_result;
+  std::optional<Proof> proof;  ///< of the criteria's bounds
 };
 
 /// A TIN as its file holds it, in the plane in which it was made.
