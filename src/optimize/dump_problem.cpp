@@ -86,7 +86,7 @@ class Writer {
         problem_(std::move(problem)),
         level_(problem_.sums.empty() ? Criteria : 0),  // the level after the sums counts flips
         forbidden_(more_than_any()) {
-    if (problem_.counts_pits && problem_.sums_before_pits == 0) blocks_ = link_blocks(problem_.plateaus);
+    if (problem_.pits_first) blocks_ = link_blocks(problem_.plateaus);
   }
 
   void write(const Progress& progress) {

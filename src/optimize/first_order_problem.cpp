@@ -39,12 +39,12 @@ void check_options(const Tin& tin, const OptimizeOptions& options) {
 
 std::size_t count_levels(std::span<const Objective> criteria) {
   constexpr std::size_t kMost = 4;
-  std::size_t sums = 0;
-  for (const Objective& objective : criteria) sums += objective.is(Criterion::LocalMinima) ? 0 : 1;
+  const bool pits_first = !criteria.empty() && criteria.front().is(Criterion::LocalMinima);
+  const std::size_t sums = criteria.size() - (pits_first ? 1 : 0);
   if (sums > kMost) {
-    throw Error(ErrorCode::Usage,
-                "there are " + std::to_string(sums) +
-                    " criteria besides local-minima; at most 4 can be put in order of priority");
+    throw Error(ErrorCode::Usage, "there are " + std::to_string(sums) +
+                                      " criteria; at most 4, and local-minima before them, can be put in "
+                                      "order of priority");
   }
   return std::bit_ceil(std::max<std::size_t>(sums, 1));
 }
@@ -55,12 +55,13 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   check_options(tin, options);
   FirstOrderProblem<Criteria> problem;
   for (const Objective& objective : options.criteria) {
-    if (objective.is(Criterion::LocalMinima)) {
-      problem.sums_before_pits = problem.sums.size();
-      problem.counts_pits = true;
-    } else {
-      problem.sums.push_back(objective);
+    const bool counts_pits = objective.is(Criterion::LocalMinima);
+    if (counts_pits && problem.sums.empty()) {
+      problem.pits_first = true;
+      continue;
     }
+    if (counts_pits) problem.pit_level = problem.sums.size();
+    problem.sums.push_back(objective);
   }
   problem.owner = quadrilaterals_of_triangles(tin, quadrilaterals);
   const std::vector<std::uint32_t>& owner = problem.owner;
@@ -78,14 +79,15 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   }
   progress.advance(0.1);
   for (std::size_t level = 0; level < problem.sums.size(); ++level) {
-    if (!problem.sums[level].is_extreme()) {
+    if (!problem.sums[level].is_extreme() && problem.pit_level != level) {
       problem.delaunay[level] = add_objective(scan, problem.sums[level], level, labelling, progress);
     }
     progress.advance(0.1 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
   }
   problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);
   progress.advance(0.9);
-  if (problem.counts_pits) problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);
+  if (problem.pits_first || problem.pit_level)
+    problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);
   progress.advance(1);
   return problem;
 }

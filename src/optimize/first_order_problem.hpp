@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,12 @@ namespace thalweg {
 
 template <std::size_t Criteria>
 struct FirstOrderProblem {
-  /// The objectives but local minima, in order of priority. The level of one that is an extreme is for the
-  /// number of terms beyond a limit; it is empty at first.
+  /// The objectives in order of priority, but local minima where they come first: then they are a condition
+  /// on links. The level of an extreme is for the number of terms beyond a limit, that of local minima for
+  /// what pit_terms.hpp adds; both are empty at first.
   std::vector<Objective> sums;
-  bool counts_pits = false;
-  std::size_t sums_before_pits = 0;  ///< how many of the sums go before local minima
+  bool pits_first = false;
+  std::optional<std::size_t> pit_level;  ///< of the sums: local minima
 
   Labelling<Criteria> labelling;  ///< level i is sums[i]; label 1 flips; without links
   std::array<WideSteps, Criteria> delaunay{};

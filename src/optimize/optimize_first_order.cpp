@@ -2,24 +2,30 @@
 //
 // 1. The problem is put together (first_order_problem.cpp).
 // 2. Local minima first, or alone: the labellings whose links connect all they can are those with the fewest
-// pits; of
-//    them the one of least cost (solver.cpp).
+//    pits; of them the one of least cost (solver.cpp).
 // 3. An objective that is the worst of its terms: what matters is that no term is beyond the least limit that
 //    leaves the criteria before it at their best. Its level counts the terms beyond a limit; the least limit
 //    with none is found by bisection among the values of terms, each step a solution of levels up to this
 //    one. Below it the next criterion decides; if none is named, the sum of normal angles.
-// 4. Local minima after other criteria: solve as if they came first. If the sums that precede them are proved
-//    to be no larger without links, the result is best in them, and has fewest pits of all triangulations. If
-//    not, solve without links, and report the pits of that with the fewest of all as bound.
+// 4. Local minima after other criteria: a level that counts pits, at first too few (pit_terms.cpp); it is
+// refined
+//    until it counts those of the solution right, and all that depends on it is done again.
+// 5. What is reported of a criterion after one that is not proved optimal is no more than what no labels
+// beat.
 #include "optimize/conflict.hpp"
 #include "optimize/first_order_problem.hpp"
+#include "optimize/pit_terms.hpp"
 #include "optimize/proof_steps.hpp"
 #include "optimize/solver.hpp"
+#include "optimize/wide.hpp"
 
 #include <thalweg/optimize/optimize.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -55,7 +61,6 @@ class Run {
   OptimizeResult run() {
     progress_.start_phase("choose diagonals");
     choose();
-    if (proof_ != nullptr) write_proof();
     progress_.advance(1);
     return report();
   }
@@ -76,7 +81,7 @@ class Run {
     for (Weight<Criteria>& weight : part.weight) std::fill(weight.begin() + level, weight.end(), 0);
     for (std::size_t later = level; later < Criteria; ++later) part.tables.clear_level(later);
     part.tables.index(part.size());
-    if (problem_.counts_pits && problem_.sums_before_pits <= level) {
+    if (problem_.pits_first) {
       part.link = problem_.plateaus.link;
       part.node_count = problem_.plateaus.node_count;
     }
@@ -93,7 +98,7 @@ class Run {
     const Solution<Criteria> before = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
     known_ = before.label;
     Settled& settled = settled_[level];
-    settled = {extreme.delaunay, worst(before), extreme.values.front()};
+    settled = {extreme.delaunay, worst(before), extreme.values.front(), extreme.values.front()};
     auto low = extreme.values.begin();
     auto high = std::lower_bound(low, extreme.values.end(), settled.limit);
     while (low < high) {
@@ -120,24 +125,58 @@ class Run {
   }
 
   void choose() {
-    for (std::size_t level = 0; level < problem_.sums.size(); ++level) {
+    Labelling<Criteria>& labelling = problem_.labelling;
+    if (problem_.pits_first) {
+      labelling.link = problem_.plateaus.link;
+      labelling.node_count = problem_.plateaus.node_count;
+    }
+    const std::size_t pits = problem_.pit_level.value_or(problem_.sums.size());
+    settle_from(0, pits);
+    if (proof_ != nullptr) write_proof();
+    if (!problem_.pit_level) {
+      solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
+      return;
+    }
+    const std::size_t quadrilaterals = problem_.rank.size();
+    PitTerms terms = pit_terms();
+    for (pits_ = PitTerms::Outcome::Refined; pits_ == PitTerms::Outcome::Refined;) {
+      lay_pits(terms, quadrilaterals);
+      settle_from(pits + 1, problem_.sums.size());
+      solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
+      pits_ = terms.refine(solution_.label);
+    }
+    problem_.rank.resize(quadrilaterals);
+    solution_.label.resize(quadrilaterals);
+    problem_.delaunay[pits] = terms.constant();
+  }
+
+  void settle_from(std::size_t first, std::size_t end) {
+    for (std::size_t level = first; level < end; ++level) {
       if (problem_.sums[level].is_extreme()) settle(level);
     }
-    Labelling<Criteria>& labelling = problem_.labelling;
-    labelling.link = problem_.plateaus.link;
-    labelling.node_count = problem_.plateaus.node_count;
-    solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
-    if (problem_.sums_before_pits == 0) return;
-    labelling.link.clear();
-    labelling.node_count = 0;
-    Solution<Criteria> free = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
-    for (std::size_t i = 0; i < problem_.sums_before_pits; ++i) {
-      if (solution_.value.level[i] != free.bound.level[i]) {
-        solution_ = std::move(free);
-        return;
-      }
-      solution_.bound.level[i] = solution_.value.level[i];
+  }
+
+  [[nodiscard]] PitTerms pit_terms() const {
+    std::vector<PitLink> links;
+    for (std::uint32_t q = 0; q < problem_.plateaus.link.size(); ++q) {
+      const Link& link = problem_.plateaus.link[q];
+      if (link.exists()) links.push_back({link.a, link.b, {q, link.helpful}});
     }
+    return {std::move(links), problem_.plateaus.node_count, problem_.rank};
+  }
+
+  /// Fills the level of pits anew, with auxiliary variables after the quadrilaterals.
+  void lay_pits(const PitTerms& terms, std::size_t quadrilaterals) {
+    Labelling<Criteria>& labelling = problem_.labelling;
+    labelling.unary.resize(quadrilaterals);
+    labelling.first.resize(quadrilaterals + 1);
+    labelling.tables.clear_level(*problem_.pit_level);
+    terms.add_to(labelling, *problem_.pit_level);
+    problem_.rank.resize(labelling.size());
+    std::iota(problem_.rank.begin() + static_cast<std::ptrdiff_t>(quadrilaterals), problem_.rank.end(),
+              static_cast<std::uint32_t>(quadrilaterals));
+    if (!known_.empty()) known_.resize(quadrilaterals);
+    known_.resize(known_.empty() ? 0 : labelling.size(), Label::Zero);
   }
 
   /// A stage for each extreme, and one for the sums between two of them. Local minima after other criteria,
@@ -194,60 +233,69 @@ class Run {
     result.largest_piece = solution_.figures.largest_piece;
     result.width = solution_.figures.width;
     std::size_t level = 0;
+    bool proved = true;
     for (const Objective& objective : criteria_) {
       CriterionResult line;
       line.name = objective.name();
       line.unit = objective.unit();
       line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
       if (objective.is(Criterion::LocalMinima)) {
-        fill_pits(line);
+        fill_pits(line, problem_.pits_first ? std::nullopt : std::optional(level++), proved);
       } else if (objective.is_extreme()) {
-        fill_extreme(line, level++);
+        fill_extreme(line, level++, proved);
       } else {
-        fill_sum(line, level++);
+        fill_sum(line, level++, proved);
       }
+      proved = proved && line.optimal;
       result.criteria.push_back(std::move(line));
     }
     return result;
   }
 
-  void fill_pits(CriterionResult& line) const {
+  void fill_pits(CriterionResult& line, std::optional<std::size_t> level, bool proved_before) const {
     const std::vector<Label> kept(problem_.rank.size(), Label::Zero), all(problem_.rank.size(), Label::Open);
     line.delaunay = static_cast<double>(count_pits(problem_.plateaus, kept));
     line.result = static_cast<double>(count_pits(problem_.plateaus, solution_.label));
     line.bound = static_cast<double>(count_pits(problem_.plateaus, all));
-    line.optimal = line.result == line.bound;
     line.method = "connectivity";
+    if (level) {
+      const WideSteps bound = problem_.delaunay[*level] + solution_.bound.level[*level];
+      const double ceiling = std::ceil(static_cast<double>(bound) / kStepsPerUnit);
+      if (proved_before) line.bound = std::max(line.bound, ceiling);
+      line.method = "connectivity by " + method_name(solution_.figures);
+    }
+    line.optimal = proved_before && line.result == line.bound;
   }
 
-  void fill_extreme(CriterionResult& line, std::size_t level) const {
+  void fill_extreme(CriterionResult& line, std::size_t level, bool proved_before) const {
     const Settled& settled = settled_[level];
     const double per_unit = line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit;
     const std::int64_t result =
         extreme_of(scan_, problem_.sums[level], problem_.labelling.first, solution_.label, progress_);
     line.delaunay = static_cast<double>(settled.delaunay) / per_unit;
     line.result = static_cast<double>(result) / per_unit;
-    line.bound = static_cast<double>(settled.bound) / per_unit;
-    line.optimal = result == settled.bound;
+    line.bound = static_cast<double>(proved_before ? settled.bound : settled.least) / per_unit;
+    line.optimal = proved_before && result == settled.bound;
     line.method = "bisection over limits by " + method_name(solution_.figures);
   }
 
-  /// Bounds compare lexicographically: that of a level holds if all levels before have reached theirs. If
-  /// not, the bound of the first level that has not is still one for that level; nothing is known of those
-  /// after it.
-  void fill_sum(CriterionResult& line, std::size_t level) const {
+  /// Bounds compare lexicographically: that of a level holds if all levels before have reached theirs.
+  void fill_sum(CriterionResult& line, std::size_t level, bool proved_before) const {
     const WideSteps delaunay = problem_.delaunay[level];
     const double per_unit = line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit;
     line.delaunay = static_cast<double>(delaunay) / per_unit;
     line.result = static_cast<double>(delaunay + solution_.value.level[level]) / per_unit;
-    line.bound = static_cast<double>(delaunay + solution_.bound.level[level]) / per_unit;
-    line.optimal = solution_.value.level[level] == solution_.bound.level[level];
+    const std::int64_t bound =
+        proved_before ? solution_.bound.level[level] : least_of_level(problem_.labelling, level);
+    line.bound = static_cast<double>(delaunay + bound) / per_unit;
+    line.optimal = proved_before && solution_.value.level[level] == bound;
     line.method = method_name(solution_.figures);
   }
 
   /// An extreme, in steps as in sums.hpp: the least limit that was reached, and one that cannot be beaten.
   struct Settled {
     std::int64_t delaunay = 0, limit = 0, bound = 0;
+    std::int64_t least = 0;  ///< that each term alone gives
   };
 
   std::span<const Objective> criteria_;
@@ -257,6 +305,7 @@ class Run {
   FirstOrderProblem<Criteria> problem_;
   TermScan scan_;
   std::array<Settled, Criteria> settled_{};
+  PitTerms::Outcome pits_ = PitTerms::Outcome::Exact;  ///< of pits after other criteria
   std::vector<Label> known_;  ///< labels within all limits settled so far; empty if there are none
   Solution<Criteria> solution_;
 };

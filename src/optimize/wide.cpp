@@ -100,7 +100,8 @@ std::vector<Label> connected(const Labelling<Criteria>& problem, std::vector<Lab
   return std::move(label);
 }
 
-/// The lowest that a level can be, whatever the labels.
+}  // namespace
+
 template <std::size_t Criteria>
 std::int64_t least_of_level(const Labelling<Criteria>& problem, std::size_t level) {
   std::int64_t sum = 0;
@@ -115,8 +116,6 @@ std::int64_t least_of_level(const Labelling<Criteria>& problem, std::size_t leve
   }
   return sum;
 }
-
-}  // namespace
 
 template <std::size_t Criteria>
 Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::span<const Label> known,
@@ -148,10 +147,13 @@ Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::span<const L
   return solution;
 }
 
+template std::int64_t least_of_level(const Labelling<1>&, std::size_t);
 template Solution<1> bracket(const Labelling<1>&, std::span<const Label>, std::int64_t, std::uint32_t,
                              std::uint64_t, const Progress&);
+template std::int64_t least_of_level(const Labelling<2>&, std::size_t);
 template Solution<2> bracket(const Labelling<2>&, std::span<const Label>, std::int64_t, std::uint32_t,
                              std::uint64_t, const Progress&);
+template std::int64_t least_of_level(const Labelling<4>&, std::size_t);
 template Solution<4> bracket(const Labelling<4>&, std::span<const Label>, std::int64_t, std::uint32_t,
                              std::uint64_t, const Progress&);
 

@@ -14,4 +14,8 @@ Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::span<const L
                            std::int64_t first_level_bound, std::uint32_t width_limit, std::uint64_t effort,
                            const Progress& progress);
 
+/// The lowest that a level can be, whatever the labels.
+template <std::size_t Criteria>
+std::int64_t least_of_level(const Labelling<Criteria>& problem, std::size_t level);
+
 }  // namespace thalweg

@@ -88,11 +88,10 @@ void check_scene(const Scene& scene) {
   const Values smooth_first = value_of(scene, both.flipped);
   EXPECT_NEAR(smooth_first.angles, least, kTolerance);
   EXPECT_EQ(static_cast<double>(smooth_first.pits), both.criteria[1].result);
-  EXPECT_LE(both.criteria[1].bound, both.criteria[1].result);
-  if (both.criteria[1].optimal) {
-    for (const Values& v : values) {
-      EXPECT_TRUE(v.angles > least + kTolerance / 1000 || v.pits >= smooth_first.pits);
-    }
+  EXPECT_EQ(both.criteria[1].bound, both.criteria[1].result);
+  EXPECT_TRUE(both.criteria[1].optimal);
+  for (const Values& v : values) {
+    EXPECT_TRUE(v.angles > least + kTolerance / 1000 || v.pits >= smooth_first.pits);
   }
 
   const Values drained = value_of(scene, run(scene, {Criterion::LocalMinima}).flipped);
