@@ -1,10 +1,13 @@
 // Progress: reports in steps of at least one per cent, so that callers may report often.
-#include <thalweg/base/error.hpp>
 #include <thalweg/base/progress.hpp>
 
 #include <string>
 
 namespace thalweg {
+
+Error cancellation() {
+  return {ErrorCode::Cancelled, "stopped on request; nothing was written"};
+}
 
 void Progress::start_phase(const std::string& name) {
   phase_ = name;
@@ -21,7 +24,7 @@ void Progress::advance(double fraction) {
 }
 
 void Progress::check() const {
-  if (cancelled()) throw Error(ErrorCode::Cancelled, "stopped on request; nothing was written");
+  if (cancelled()) throw cancellation();
 }
 
 }  // namespace thalweg

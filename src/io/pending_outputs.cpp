@@ -7,6 +7,9 @@
 //    nothing about read-only file systems, or to root.
 // 3. On commit: fsync every file, rename every file, fsync every folder (else a power cut may undo the
 // rename).
+// 4. All that live are listed, so that a process which is told to end can remove their files while its other
+// threads are still at work. The lock of the list is held while names change and files are given their
+// targets, and is not given back once they were abandoned.
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/pending_outputs.hpp>
 
@@ -19,6 +22,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <system_error>
 
@@ -72,13 +76,46 @@ void sync_to_device(const fs::path& path, const std::string& target) {
 // What SQLite may leave beside a database when it is stopped.
 constexpr std::array<const char*, 4> kRemains = {"", "-journal", "-wal", "-shm"};
 
+/// Those that live. Never destroyed: a thread may wait for the lock while the process ends.
+struct Living {
+  std::mutex lock;
+  std::vector<const PendingOutputs*> all;
+  bool committed = false;
+};
+
+Living& living() {
+  static auto* const list = new Living;
+  return *list;
+}
+
 }  // namespace
 
+PendingOutputs::PendingOutputs() {
+  const std::scoped_lock lock(living().lock);
+  living().all.push_back(this);
+}
+
 PendingOutputs::~PendingOutputs() {
+  const std::scoped_lock lock(living().lock);
+  remove_written();
+  std::erase(living().all, this);
+}
+
+void PendingOutputs::remove_written() const noexcept {
   for (const Output& output : outputs_) {
     if (output.written == output.target) continue;
     for (const char* remains : kRemains) ::unlink((output.written + remains).c_str());
   }
+}
+
+bool abandon_pending_outputs() noexcept {
+  living().lock.lock();
+  if (living().committed) {
+    living().lock.unlock();
+    return false;
+  }
+  for (const PendingOutputs* outputs : living().all) outputs->remove_written();
+  return true;
 }
 
 void PendingOutputs::check_new(const std::string& target) const {
@@ -96,6 +133,7 @@ std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
   if (fs::is_directory(status)) {
     throw Error(ErrorCode::Usage, target + ": is a folder; give the name of a file in it");
   }
+  const std::scoped_lock lock(living().lock);
   if (fs::is_character_file(status) || fs::is_fifo(status)) {
     outputs_.push_back({target, target});
     return target;
@@ -137,6 +175,8 @@ void PendingOutputs::commit() {
     if (fs::is_regular_file(old)) fs::permissions(output.written, old.permissions(), ignored);
     sync_to_device(output.written, output.target);
   }
+  const std::scoped_lock lock(living().lock);
+  living().committed = true;
   for (const std::string& stale : stale_) ::unlink(stale.c_str());
   for (Output& output : outputs_) {
     if (output.written == output.target) continue;

@@ -1,5 +1,6 @@
 // The command line: parses, runs one subcommand, maps errors to one line and an exit status.
 #include "command.hpp"
+#include "interrupt.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -24,13 +25,6 @@ namespace {
 
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
-constexpr int kInterrupted = 130;
-
-std::unique_ptr<Progress> running;
-
-extern "C" void stop_on_signal(int) {
-  if (running) running->cancel();
-}
 
 /// Draws each phase as one line `read         0...10...20...100 - done.`
 class ProgressLine {
@@ -138,10 +132,9 @@ Progress& progress_of(const Common& common) {
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, common.threads);
   }
   const bool draw = common.quiet == 0 && (common.progress || isatty(STDERR_FILENO) != 0);
-  running = draw ? std::make_unique<Progress>(ProgressLine{}) : std::make_unique<Progress>();
-  std::signal(SIGINT, stop_on_signal);
-  std::signal(SIGTERM, stop_on_signal);
-  return *running;
+  static auto* const progress = draw ? new Progress(ProgressLine{}) : new Progress;  // outlives all threads
+  cancel_on_signal(*progress);
+  return *progress;
 }
 
 void print(const std::string& text) {
@@ -157,12 +150,14 @@ int main(int argc, char** argv) {
   using namespace thalweg;
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  cli::watch_signals();
   try {
     return cli::run(argc, argv);
   } catch (const Error& error) {
     const int status = error.code() == ErrorCode::Usage       ? cli::kUsage
                        : error.code() == ErrorCode::Cancelled ? cli::kInterrupted
                                                               : cli::kFailed;
+    if (error.code() == ErrorCode::Cancelled) cli::claim_interruption();
     return cli::fail(error_name(error.code()), error.what(), status);
   } catch (const std::bad_alloc&) {
     return cli::fail("out-of-memory", "the machine has not enough memory for this input; nothing was written",

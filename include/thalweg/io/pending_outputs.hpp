@@ -19,7 +19,7 @@ enum class Overwrite : std::uint8_t { No, Yes };
 /// (3) a committed file has been flushed to the device. Devices and pipes (/dev/stdout) are written directly.
 class PendingOutputs {
  public:
-  PendingOutputs() = default;
+  PendingOutputs();
   ~PendingOutputs();
   PendingOutputs(const PendingOutputs&) = delete;
   PendingOutputs& operator=(const PendingOutputs&) = delete;
@@ -45,8 +45,16 @@ class PendingOutputs {
   };
   void check_new(const std::string& target) const;
 
+  void remove_written() const noexcept;
+  friend bool abandon_pending_outputs() noexcept;
+
   std::vector<Output> outputs_;
   std::vector<std::string> stale_;
 };
+
+/// For a process that is to end now, whatever its other threads are doing: removes the temporary files of
+/// every PendingOutputs in it; `add` and `commit` then do not return any more. False, and nothing is done, if
+/// a commit has begun to give files their names: then let the process end by itself. Not for signal handlers.
+bool abandon_pending_outputs() noexcept;
 
 }  // namespace thalweg
