@@ -1,13 +1,10 @@
 // Progress: reports in steps of at least one per cent, so that callers may report often.
+#include <thalweg/base/error.hpp>
 #include <thalweg/base/progress.hpp>
 
 #include <string>
 
 namespace thalweg {
-
-Error cancellation() {
-  return {ErrorCode::Cancelled, "stopped on request; nothing was written"};
-}
 
 void Progress::start_phase(const std::string& name) {
   phase_ = name;
@@ -24,7 +21,7 @@ void Progress::advance(double fraction) {
 }
 
 void Progress::check() const {
-  if (cancelled()) throw cancellation();
+  if (cancelled()) throw Error(ErrorCode::Cancelled, "stopped on request; nothing was written");
 }
 
 }  // namespace thalweg

@@ -23,16 +23,14 @@ namespace thalweg {
 
 namespace {
 
-/// Angle between the upward normals of the triangles at an edge, in radians; 0 where the surface goes on
-/// flat. Its sum and its largest value are measures of smoothness in van Kreveld, Loeffler, Silveira,
-/// Optimization for first order Delaunay triangulations, 2010.
-double normal_angle(const Face& left, const Face& right, Scale /*scale*/) {
-  return angle_between(left.normal, right.normal);
+/// Its sum and its largest value are measures of smoothness in van Kreveld, Loeffler, Silveira, Optimization
+/// for first order Delaunay triangulations, 2010.
+double angle(double radians) {
+  return radians;
 }
 
-double normal_angle_squared(const Face& left, const Face& right, Scale scale) {
-  const double angle = normal_angle(left, right, scale);
-  return angle * angle;
+double angle_squared(double radians) {
+  return radians * radians;
 }
 
 /// The corner of `right` that is none of `left`.
@@ -77,8 +75,8 @@ double flat_triangle(const Face& face, Scale /*scale*/) {
 
 constexpr double kDegreesPerRadian = 0x1.ca5dc1a63c1f8p+5;
 
-double normal_angle_in_degrees(const Face& left, const Face& right, Scale scale) {
-  return normal_angle(left, right, scale) * kDegreesPerRadian;
+double angle_in_degrees(double radians) {
+  return radians * kDegreesPerRadian;
 }
 
 /// Area of a triangle in the plane, in square metres.
@@ -140,14 +138,12 @@ constexpr std::array kDeclarations = {
     // lower neighbour, off the boundary, and no lake. De Kok, van Kreveld, Loeffler 2007.
     Declaration{
         {Criterion::LocalMinima, "local-minima", "count", kMinimise, Coupling::Plateau, Combination::Count}},
-    Declaration{{Criterion::NormalAngleSum, "normal-angle-sum", "radians", kMinimise, Coupling::Edge,
-                 Combination::Sum},
-                nullptr,
-                normal_angle},
-    Declaration{{Criterion::NormalAngleSquares, "normal-angle-squares", "radians^2", kMinimise,
-                 Coupling::Edge, Combination::Sum},
-                nullptr,
-                normal_angle_squared},
+    Declaration{.traits = {Criterion::NormalAngleSum, "normal-angle-sum", "radians", kMinimise,
+                           Coupling::Edge, Combination::Sum},
+                .of_angle = angle},
+    Declaration{.traits = {Criterion::NormalAngleSquares, "normal-angle-squares", "radians^2", kMinimise,
+                           Coupling::Edge, Combination::Sum},
+                .of_angle = angle_squared},
     Declaration{{Criterion::EdgeLength, "edge-length", "metres", kMinimise, Coupling::Edge, Combination::Sum},
                 nullptr,
                 edge_length},
@@ -162,10 +158,9 @@ constexpr std::array kDeclarations = {
     Declaration{{Criterion::FlatTriangles, "flat-triangles", "count", kMinimise, Coupling::OneTriangle,
                  Combination::Count},
                 flat_triangle},
-    Declaration{{Criterion::NormalAngleMax, "normal-angle-max", "degrees", kMinimise, Coupling::Edge,
-                 Combination::Max},
-                nullptr,
-                normal_angle_in_degrees},
+    Declaration{.traits = {Criterion::NormalAngleMax, "normal-angle-max", "degrees", kMinimise,
+                           Coupling::Edge, Combination::Max},
+                .of_angle = angle_in_degrees},
     Declaration{
         {Criterion::AreaRatioMax, "area-ratio-max", "ratio", kMinimise, Coupling::Edge, Combination::Max},
         nullptr,

@@ -13,6 +13,9 @@ namespace thalweg {
 using TriangleTerm = double (*)(const Face&, Scale);
 /// The term of an interior edge; symmetric in its triangles.
 using EdgeTerm = double (*)(const Face&, const Face&, Scale);
+/// The term of an interior edge, of the angle between the upward normals of its triangles, in radians; 0
+/// where the surface goes on flat.
+using AngleTerm = double (*)(double);
 
 /// The term of a triangle that is measured against a reference, and what it leaves for the rim of the TIN.
 using ReferenceTerm = double (*)(const Face&, Scale, const Reference&);
@@ -35,6 +38,13 @@ struct Declaration {
   ReferenceTerm against_reference = nullptr;
   VertexTerm vertex = nullptr;
   bool sum_is_fixed = false;  ///< no label changes the sum of all terms
+  AngleTerm of_angle = nullptr;
+
+  /// Of the coupling Edge: its term.
+  [[nodiscard]] double of_edge(const Face& left, const Face& right, Scale scale) const {
+    return of_angle != nullptr ? of_angle(angle_between(left.normal, right.normal))
+                               : edge(left, right, scale);
+  }
 };
 
 const Declaration& declaration_of(Criterion criterion);

@@ -7,7 +7,7 @@
 #include <thalweg/mesh/tin.hpp>
 
 #include <array>
-#include <utility>
+#include <cstddef>
 
 namespace thalweg {
 
@@ -26,7 +26,15 @@ struct Face {
 };
 
 inline Face make_face(Corner a, Corner b, Corner c, Scale scale) {
-  while (b.at < a.at || c.at < a.at) a = std::exchange(b, std::exchange(c, a));
+  // Any of the three may come first: a branch would be mispredicted as often as not.
+  const auto before = [](const Corner& p, const Corner& q) {
+    return static_cast<unsigned>(p.at.x < q.at.x) |
+           (static_cast<unsigned>(p.at.x == q.at.x) & static_cast<unsigned>(p.at.y < q.at.y));
+  };
+  const unsigned b_a = before(b, a), c_a = before(c, a), c_b = before(c, b);
+  const std::size_t first = (b_a & (1 - c_b)) + 2 * (c_a & c_b);
+  const std::array<Corner, 5> turn{a, b, c, a, b};
+  a = turn[first], b = turn[first + 1], c = turn[first + 2];
   const double bx = (b.at.x - a.at.x) * scale.horizontal, cx = (c.at.x - a.at.x) * scale.horizontal;
   const double by = (b.at.y - a.at.y) * scale.horizontal, cy = (c.at.y - a.at.y) * scale.horizontal;
   const double bz = (b.height - a.height) * scale.vertical, cz = (c.height - a.height) * scale.vertical;

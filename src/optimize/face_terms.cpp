@@ -36,8 +36,8 @@ std::int64_t TermLevel::of(const Face& triangle, Scale scale) const {
 std::int64_t TermLevel::of(const Face& left, const Face& right, Scale scale) const {
   std::int64_t sum = 0;
   for (const Part& part : parts) {
-    if (part.declaration->edge == nullptr) continue;
-    sum += measure(part.factor * part.declaration->edge(left, right, scale));
+    if (part.declaration->traits.coupling != Coupling::Edge) continue;
+    sum += measure(part.factor * part.declaration->of_edge(left, right, scale));
   }
   return sum;
 }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace thalweg {
 
@@ -58,23 +59,37 @@ inline Vector3 scaled_to_unit(Vector3 v) {
   return {std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)};
 }
 
+/// Whether squares neither lose bits nor overflow.
+inline bool has_plain_squares(double dot, double cross_squared) {
+  const double magnitude = cross_squared + dot * dot;
+  return magnitude > 1e-240 && magnitude < 1e300;
+}
+
 /// Angle between two directions, 0 to pi; symmetric to the bit.
 inline double angle_between(Vector3 m, Vector3 n) {
   const Vector3 cross{m.y * n.z - m.z * n.y, m.z * n.x - m.x * n.z, m.x * n.y - m.y * n.x};
   const double dot = m.x * n.x + m.y * n.y + m.z * n.z;
   const double cross_squared = cross.x * cross.x + cross.y * cross.y + cross.z * cross.z;
-  const double magnitude = cross_squared + dot * dot;
-  constexpr double kTiny = 1e-240, kHuge = 1e300;  // beyond, squares lose bits or overflow
-  if (!(magnitude > kTiny && magnitude < kHuge)) return angle_between(scaled_to_unit(m), scaled_to_unit(n));
+  if (!has_plain_squares(dot, cross_squared)) return angle_between(scaled_to_unit(m), scaled_to_unit(n));
   return angle_of(dot, std::sqrt(cross_squared));
 }
+
+/// Two of some normals.
+using BodyPair = std::array<std::uint32_t, 2>;
+
+/// `angle_between` of pairs of normals, the same bits, several at a time.
+/// Pre: as many angles as pairs.
+void angles_between(std::span<const Vector3> normals, std::span<const BodyPair> pairs,
+                    std::span<double> angles);
 
 /// Terms are integers: multiples of 2^-32 of their unit, rounded once; at most 2^30 units.
 constexpr double kStepsPerUnit = 0x1p32;
 
 inline std::int64_t to_steps(double value) {
   constexpr double kMost = 0x1p30;
-  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kMost, kMost) * kStepsPerUnit + 0.5));
+  const double steps = std::clamp(value, -kMost, kMost) * kStepsPerUnit + 0.5;
+  const auto towards_zero = static_cast<std::int64_t>(steps);
+  return towards_zero - (static_cast<double>(towards_zero) > steps ? 1 : 0);
 }
 
 }  // namespace thalweg

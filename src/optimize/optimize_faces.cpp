@@ -329,9 +329,7 @@ void refuse_other_terms(const std::vector<Objective>& criteria) {
   for (const Objective& objective : criteria) {
     for (const Objective::Part& part : objective.parts) {
       const Declaration& declaration = declaration_of(part.criterion);
-      const bool known = declaration.triangle != nullptr || declaration.edge != nullptr ||
-                         declaration.against_reference != nullptr || part.criterion == Criterion::LocalMinima;
-      if (known) continue;
+      if (declaration.vertex == nullptr) continue;
       throw Error(ErrorCode::Unsupported, "criterion " + std::string(declaration.traits.name) +
                                               " cannot be optimised at orders above 1; take --order 1");
     }

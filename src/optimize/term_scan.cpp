@@ -37,26 +37,19 @@ std::array<Side, 4> sides_of(const Tin& tin, const Quadrilateral& quadrilateral)
       {{Tin::previous(uv), true}, {Tin::next(vu), true}, {Tin::previous(vu), false}, {Tin::next(uv), false}}};
 }
 
-std::uint32_t TermScan::slot(std::uint32_t begin, std::span<const Side> sides, HalfedgeId inner) const {
-  for (const Side& side : sides) {
-    if (side.inner == inner) break;
-    begin += owner_across(side.inner) != kNone ? 1 : 0;
-  }
-  return begin;
-}
-
 double TermScan::left_on_rim(const Progress& progress) const {
-  return reference_->squares_left_on_rim(tin_, progress) * scale_.vertical * scale_.vertical;
+  return reference_->squares_left_on_rim(faces_.tin, progress) * faces_.scale.vertical *
+         faces_.scale.vertical;
 }
 
 TermScan::Rows TermScan::lay_out_rows(const Progress& progress) const {
   Rows rows;
-  const std::size_t count = quadrilaterals_.size();
+  const std::size_t count = faces_.quadrilaterals.size();
   rows.first.assign(count + 1, 0);
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
-      for (const Side& side : sides_of(tin_, quadrilaterals_[q])) {
-        rows.first[q + 1] += owner_across(side.inner) != kNone ? 1 : 0;
+      for (const Side& side : sides_of(faces_.tin, faces_.quadrilaterals[q])) {
+        rows.first[q + 1] += faces_.owner_across(side.inner) != kNone ? 1 : 0;
       }
     }
   });
@@ -65,8 +58,8 @@ TermScan::Rows TermScan::lay_out_rows(const Progress& progress) const {
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
       std::uint32_t at = rows.first[q];
-      for (const Side& side : sides_of(tin_, quadrilaterals_[q])) {
-        const std::uint32_t p = owner_across(side.inner);
+      for (const Side& side : sides_of(faces_.tin, faces_.quadrilaterals[q])) {
+        const std::uint32_t p = faces_.owner_across(side.inner);
         if (p != kNone) rows.neighbour[at++] = p;
       }
     }

@@ -22,11 +22,15 @@ std::atomic<Progress*> watched = nullptr;
 
 [[noreturn]] void end_process() {
   claim_interruption();
-  const Error cancelled = cancellation();
-  const std::string line =
-      "ERROR " + std::string(error_name(cancelled.code())) + ": " + cancelled.what() + "\n";
-  // Whether or not anyone reads it, the process ends.
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  try {
+    Progress stopped;
+    stopped.cancel();
+    stopped.check();
+  } catch (const Error& error) {
+    const std::string line = "ERROR " + std::string(error_name(error.code())) + ": " + error.what() + "\n";
+    // Whether or not anyone reads it, the process ends.
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  }
   ::_exit(kInterrupted);
 }
 

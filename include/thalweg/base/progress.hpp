@@ -2,16 +2,11 @@
 
 /// Progress and cancel of long work.
 
-#include <thalweg/base/error.hpp>
-
 #include <atomic>
 #include <functional>
 #include <string>
 
 namespace thalweg {
-
-/// What work throws that was asked to stop.
-Error cancellation();
 
 /// Where long work reports how far it is and learns that it shall stop.
 /// Thread-safe to cancel and to check; reporting is for the thread that leads the work.
