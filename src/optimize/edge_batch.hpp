@@ -29,6 +29,8 @@ class EdgeBatch {
       add(faces.flipped_face(q, true));
       add(faces.flipped_face(q, false));
     }
+    edges_.reserve(std::size_t{5} * (end - begin));
+    sides_.reserve(std::size_t{12} * (end - begin));
     for (std::uint32_t q = begin; q < end; ++q) list_edges(q);
   }
 
