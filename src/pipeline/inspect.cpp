@@ -7,6 +7,7 @@
 #include <thalweg/io/picture.hpp>
 #include <thalweg/io/read_tin.hpp>
 #include <thalweg/pipeline/inspect.hpp>
+#include <thalweg/terrain/pit_changes.hpp>
 #include <thalweg/terrain/pits.hpp>
 
 #include <fmt/format.h>
@@ -131,8 +132,7 @@ void view_tin(const ViewConfig& config, Progress& progress) {
   const std::string path = outputs.add(config.output, config.overwrite ? Overwrite::Yes : Overwrite::No);
   progress.start_phase("read");
   const LoadedTin loaded = load_tin(config.input, progress);
-  std::vector<std::uint8_t> pits = find_pits(loaded.tin).is_pit;
-  std::replace(pits.begin(), pits.end(), std::uint8_t{2}, std::uint8_t{0});
+  const std::vector<std::uint8_t> pits = mark_pits(loaded.tin, find_pits(loaded.tin).is_pit);
   progress.start_phase("draw");
   const PictureScene scene{.tin = loaded.tin,
                            .horizontal_metres_per_unit = loaded.plane.metres_per_unit(),

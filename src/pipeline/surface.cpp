@@ -23,6 +23,7 @@
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/order/order_tin.hpp>
+#include <thalweg/terrain/pit_changes.hpp>
 #include <thalweg/terrain/pits.hpp>
 #include <thalweg/terrain/statistics.hpp>
 
@@ -142,14 +143,6 @@ std::size_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
-
-std::vector<std::uint8_t> interior_pits(std::span<const std::uint8_t> kinds) {
-  std::vector<std::uint8_t> flags(kinds.size());
-  std::transform(kinds.begin(), kinds.end(), flags.begin(), [](std::uint8_t kind) {
-    return static_cast<std::uint8_t>(kind == static_cast<std::uint8_t>(PitKind::Interior) ? 1 : 0);
-  });
-  return flags;
 }
 
 void write_text(const std::string& path, const std::string& target, const std::string& text) {
@@ -357,7 +350,7 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
 // What is written, under the ids of the outputs.
 struct Outcome {
   BuiltTin built;
-  std::vector<std::uint8_t> is_pit_before;
+  std::vector<std::uint8_t> pits_before;  ///< one vertex a pit of the Delaunay TIN, if a picture is wanted
   std::vector<std::array<VertexId, 2>> new_diagonals;
 };
 
@@ -371,13 +364,13 @@ std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<
   return orders;
 }
 
-Outcome outcome_of(Labelled labelled, Terrain terrain, PitSummary before, PitSummary after,
-                   const Progress& progress) {
+Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t> pits_before,
+                   PitSummary after, const Progress& progress) {
   Outcome outcome{.built = {.tin = std::move(labelled.tin),
                             .written = std::move(terrain.written),
                             .vertex_source = std::move(terrain.vertex_source),
                             .is_pit = std::move(after.is_pit)},
-                  .is_pit_before = std::move(before.is_pit),
+                  .pits_before = std::move(pits_before),
                   .new_diagonals = std::move(labelled.new_diagonals)};
   const bool higher_order = labelled.higher_order.has_value();
   outcome.built.orders = std::move(labelled.orders);
@@ -390,7 +383,9 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, PitSummary before, PitSum
     outcome.built.tin = outcome.built.tin.renumbered(number, progress);
     outcome.built.written = renumbered<Point2>(outcome.built.written, number);
     outcome.built.vertex_source = renumbered<std::uint8_t>(outcome.built.vertex_source, number);
-    outcome.is_pit_before = renumbered<std::uint8_t>(outcome.is_pit_before, number);
+    if (!outcome.pits_before.empty()) {
+      outcome.pits_before = renumbered<std::uint8_t>(outcome.pits_before, number);
+    }
     outcome.built.is_pit = renumbered<std::uint8_t>(outcome.built.is_pit, number);
     for (auto& [a, b] : outcome.new_diagonals) {
       std::tie(a, b) = std::minmax(number[a.index()], number[b.index()]);
@@ -428,12 +423,11 @@ void write_problem(const Labelled& labelled, const RunContext& run, Progress& pr
 }
 
 void draw_result(const Outcome& outcome, const RunContext& run, Progress& progress) {
-  const std::vector<std::uint8_t> pits_before = interior_pits(outcome.is_pit_before);
-  const std::vector<std::uint8_t> pits_after = interior_pits(outcome.built.is_pit);
+  const std::vector<std::uint8_t> pits_after = mark_pits(outcome.built.tin, outcome.built.is_pit);
   const PictureScene scene{.tin = outcome.built.tin,
                            .horizontal_metres_per_unit = run.plane.metres_per_unit(),
                            .vertical_metres_per_unit = run.plane.vertical_metres_per_unit(),
-                           .pits_before = pits_before,
+                           .pits_before = outcome.pits_before,
                            .pits_after = pits_after,
                            .flipped = outcome.new_diagonals,
                            .title = std::filesystem::path(run.output.path).filename().string()};
@@ -465,7 +459,7 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
   progress.start_phase("check");
   refuse_violations(labelled.tin, terrain, progress);
   progress.advance(0.4);
-  PitSummary pits_before = find_pits(labelled.delaunay);
+  const PitSummary pits_before = find_pits(labelled.delaunay);
   PitSummary pits_after = find_pits(labelled.tin);
   check_pit_count(labelled.result, pits_after);
   progress.advance(0.6);
@@ -477,7 +471,9 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
 
   progress.start_phase("write");
   if (!run.outputs.problem.empty()) write_problem(labelled, run, progress);
-  Outcome outcome = outcome_of(std::move(labelled), std::move(terrain), std::move(pits_before),
+  std::vector<std::uint8_t> drawn_before;
+  if (!run.outputs.picture.empty()) drawn_before = mark_pits(labelled.delaunay, pits_before.is_pit);
+  Outcome outcome = outcome_of(std::move(labelled), std::move(terrain), std::move(drawn_before),
                                std::move(pits_after), progress);
   outcome.built.crs = run.crs;
   outcome.built.report = std::move(built.report);

@@ -15,15 +15,15 @@ namespace thalweg {
 
 namespace {
 
-bool interior(const PitSummary& pits, VertexId v) {
-  return pits.is_pit[v.index()] == static_cast<std::uint8_t>(PitKind::Interior);
+bool interior(std::span<const std::uint8_t> is_pit, VertexId v) {
+  return is_pit[v.index()] == static_cast<std::uint8_t>(PitKind::Interior);
 }
 
-std::vector<std::vector<VertexId>> gather(const Tin& tin, const PitSummary& pits) {
+std::vector<std::vector<VertexId>> gather(const Tin& tin, std::span<const std::uint8_t> is_pit) {
   std::vector<std::vector<VertexId>> gathered;
   std::vector<bool> seen(tin.vertex_count(), false);
   for (std::size_t i = 0; i < tin.vertex_count(); ++i) {
-    if (seen[i] || !interior(pits, VertexId{i})) continue;
+    if (seen[i] || !interior(is_pit, VertexId{i})) continue;
     std::vector<VertexId> pit = {VertexId{i}};
     seen[i] = true;
     for (std::size_t next = 0; next < pit.size(); ++next) {
@@ -57,17 +57,23 @@ VertexId middle_of(const Tin& tin, const std::vector<VertexId>& pit) {
 
 }  // namespace
 
+std::vector<std::uint8_t> mark_pits(const Tin& tin, std::span<const std::uint8_t> is_pit) {
+  std::vector<std::uint8_t> marks(tin.vertex_count(), 0);
+  for (const auto& pit : gather(tin, is_pit)) marks[middle_of(tin, pit).index()] = 1;
+  return marks;
+}
+
 PitChanges compare_pits(const Tin& before, const Tin& after) {
   const PitSummary pits_before = find_pits(before);
   const PitSummary pits_after = find_pits(after);
   PitChanges changes;
   const auto shared = [](const std::vector<VertexId>& pit, const PitSummary& other) {
-    return std::any_of(pit.begin(), pit.end(), [&](VertexId v) { return interior(other, v); });
+    return std::any_of(pit.begin(), pit.end(), [&](VertexId v) { return interior(other.is_pit, v); });
   };
-  for (const auto& pit : gather(before, pits_before)) {
+  for (const auto& pit : gather(before, pits_before.is_pit)) {
     if (!shared(pit, pits_after)) changes.removed.push_back(middle_of(before, pit));
   }
-  for (const auto& pit : gather(after, pits_after)) {
+  for (const auto& pit : gather(after, pits_after.is_pit)) {
     (shared(pit, pits_before) ? changes.left : changes.added).push_back(middle_of(after, pit));
   }
   return changes;

@@ -18,9 +18,10 @@ struct PictureScene {
   const Tin& tin;
   double horizontal_metres_per_unit = 1;
   double vertical_metres_per_unit = 1;
-  std::span<const std::uint8_t> pits_before = {};  ///< one a vertex: interior pit of the Delaunay TIN
-  std::span<const std::uint8_t> pits_after = {};   ///< one a vertex: interior pit of this TIN
-  std::span<const std::uint8_t> pits_new = {};     ///< one a vertex: a pit that another TIN does not have
+  std::span<const std::uint8_t> pits_before = {};  ///< one a vertex: stands for a pit of the Delaunay TIN
+  std::span<const std::uint8_t> pits_after = {};   ///< one a vertex: stands for a pit of this TIN
+  std::span<const std::uint8_t> pits_new =
+      {};  ///< one a vertex: stands for a pit that another TIN does not have
   std::span<const std::array<VertexId, 2>> flipped =
       {};  ///< edges of this TIN that the Delaunay TIN does not have
   std::string title = {};

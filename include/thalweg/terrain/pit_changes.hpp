@@ -1,9 +1,11 @@
 #pragma once
 
-/// What became of the pits of a TIN when its triangles changed.
+/// The interior pits of a TIN one by one, and what became of them when its triangles changed.
 
 #include <thalweg/mesh/tin.hpp>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace thalweg {
@@ -19,5 +21,9 @@ struct PitChanges {
 /// Compares the interior pits, as find_pits counts them; so left and added together are the pits after.
 /// Pre: both have the same vertices under the same ids. Complexity: linear.
 PitChanges compare_pits(const Tin& before, const Tin& after);
+
+/// For each vertex whether it stands for an interior pit: of each pit one does, the one nearest to the middle
+/// of its vertices. `is_pit` as in PitSummary. Complexity: linear.
+std::vector<std::uint8_t> mark_pits(const Tin& tin, std::span<const std::uint8_t> is_pit);
 
 }  // namespace thalweg
