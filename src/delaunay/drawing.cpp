@@ -98,7 +98,8 @@ void append_crossings(Drawing& drawing) {
       fmt::format("{} and {} have vertices near {} that are too close together for double arithmetic; "
                   "merge them with --snap DISTANCE",
                   describe_line_edge(survey, one.line, one.vertex),
-                  describe_line_edge(survey, other.line, other.vertex), describe_place(failure.place)));
+                  describe_line_edge(survey, other.line, other.vertex),
+                  describe_place(survey, failure.place)));
 }
 
 }  // namespace

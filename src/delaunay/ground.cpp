@@ -69,7 +69,7 @@ std::optional<double> height_at_rim(const Tin& tin, Point2 p, double reach) {
       fmt::format("{} at {} has no height and lies outside of the ground of points and lines with heights; "
                   "give it a height (3D geometry or --line-z-field), shorten the line, or add points there",
                   describe_line_vertex(survey, passage->line, passage->at),
-                  describe_place(drawing.vertices.xy[v])));
+                  describe_place(survey, drawing.vertices.xy[v])));
 }
 
 // Step 2. A vertex that rounding has put outside of the base's hull takes the height of the hull.

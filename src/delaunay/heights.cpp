@@ -197,8 +197,8 @@ class Resolver {
     if (other != claims.end() && options_.crossing == CrossingRule::Error) {
       throw Error(ErrorCode::CrossingLines,
                   fmt::format("{} and {} meet at {} with heights {} and {}; choose one with --crossing",
-                              describe(first), describe(*other), describe_place(drawing_.vertices.xy[v]),
-                              first.z, other->z));
+                              describe(first), describe(*other),
+                              describe_place(survey_, drawing_.vertices.xy[v]), first.z, other->z));
     }
     std::vector<double> all;
     EdgeKind kind = EdgeKind::None;
@@ -258,7 +258,7 @@ class Resolver {
             ErrorCode::CrossingLines,
             fmt::format("{} and {} cross, touch or overlap at {}; repair them, or say with --crossing which "
                         "height counts there",
-                        describe(one), describe(other), describe_place(drawing_.vertices.xy[v])));
+                        describe(one), describe(other), describe_place(survey_, drawing_.vertices.xy[v])));
       }
     }
   }

@@ -17,7 +17,8 @@ std::string describe_source(const Survey& survey, std::uint32_t source) {
 
 }  // namespace
 
-std::string describe_place(Point2 p) {
+std::string describe_place(const Survey& survey, Point2 p) {
+  if (survey.to_source) p = survey.to_source(p);
   return fmt::format("({}, {})", p.x, p.y);
 }
 

@@ -9,7 +9,8 @@
 
 namespace thalweg {
 
-std::string describe_place(Point2 p);
+/// In the coordinates of the sources.
+std::string describe_place(const Survey& survey, Point2 p);
 /// Rows count from 1 within a run of points.
 std::string describe_point(const Survey& survey, std::size_t point);
 std::string describe_line(const Survey& survey, std::size_t line);

@@ -61,7 +61,8 @@ void check_rings(const Survey& survey, const MergedVertices& merged) {
     throw Error(ErrorCode::WrongGeometry,
                 describe_line(survey, l) +
                     " is used as a boundary or hole, but is not closed: its first vertex " +
-                    describe_place(line.xy.front()) + " and its last " + describe_place(line.xy.back()) +
+                    describe_place(survey, line.xy.front()) + " and its last " +
+                    describe_place(survey, line.xy.back()) +
                     " differ; give polygons or closed lines, or close it with --snap DISTANCE");
   }
 }

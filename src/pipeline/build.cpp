@@ -71,6 +71,18 @@ std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& 
   return keep;
 }
 
+/// Constraint edges that lie wholly outside of the data go with its triangles: the report says how many.
+void note_lost_edges(const Terrain& terrain, Report& report) {
+  const Tin& ground = terrain.ground;
+  const auto kept = [&](HalfedgeId h) { return h.valid() && terrain.keep[Tin::triangle_of(h).index()]; };
+  const auto lost = std::ranges::count_if(ground.constraint_edges(), [&](const ConstraintEdge& edge) {
+    return !kept(ground.find_halfedge(edge.a, edge.b)) && !kept(ground.find_halfedge(edge.b, edge.a));
+  });
+  if (lost == 0) return;
+  report.notes.push_back(std::to_string(lost) +
+                         " edges of lines lie where the raster has no data at its frame; they are left out");
+}
+
 void describe_input(const ReadResult& read, const Ground& ground, Report& report) {
   report.input.points_read = read.points_read;
   report.input.nodata_skipped = read.nodata_skipped;
@@ -111,6 +123,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   ground_options.snap = config.snap_m / plane.metres_per_unit();
   if (plane.projected()) ground_options.resolution = kGeographicResolutionM;
   ground_options.numbering = Numbering::AlongCurve;
+  if (plane.projected()) survey.survey.to_source = [&back = plane](Point2 p) { return back.to_written(p); };
   Ground ground = build_ground(survey.survey, ground_options, progress);
   describe_input(read, ground, report);
   report.conflicts = std::move(ground.conflicts);
@@ -126,6 +139,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   survey = {};
   terrain.ground = std::move(ground.tin);
   terrain.keep = surface_triangles(terrain, read.nodata, plane, config.max_edge_m, progress);
+  note_lost_edges(terrain, report);
   report.tin.dropped_rim_triangles =
       static_cast<std::size_t>(std::count(terrain.keep.begin(), terrain.keep.end(), false));
   const std::size_t vertices = terrain.ground.vertex_count();

@@ -7,6 +7,7 @@
 #include <thalweg/mesh/edge_kind.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,8 @@ struct Survey {
   SurveyPoints points;
   /// Ridges, valleys, breaklines, and rings of boundaries and holes, in the order in which they were given.
   std::vector<SurveyLine> lines;
+  /// From the plane back to the coordinates of the sources, for messages; empty: they are the same.
+  std::function<Point2(Point2)> to_source;
 };
 
 }  // namespace thalweg
