@@ -141,6 +141,7 @@ void view_tin(const ViewConfig& config, Progress& progress) {
                            .pits_after = pits,
                            .flipped = {},
                            .title = std::filesystem::path(config.input).filename().string(),
+                           .target = config.output,
                            .width_px = config.width_px};
   draw_picture(path, std::filesystem::path(config.output).extension().string(), scene, progress);
   outputs.commit();

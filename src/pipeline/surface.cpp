@@ -430,7 +430,8 @@ void draw_result(const Outcome& outcome, const RunContext& run, Progress& progre
                            .pits_before = outcome.pits_before,
                            .pits_after = pits_after,
                            .flipped = outcome.new_diagonals,
-                           .title = std::filesystem::path(run.output.path).filename().string()};
+                           .title = std::filesystem::path(run.output.path).filename().string(),
+                           .target = run.output.picture_path};
   draw_picture(run.outputs.picture, std::filesystem::path(run.output.picture_path).extension().string(),
                scene, progress);
 }
