@@ -85,9 +85,11 @@ void angles_between(std::span<const Vector3> normals, std::span<const BodyPair> 
 /// Terms are integers: multiples of 2^-32 of their unit, rounded once; at most 2^30 units.
 constexpr double kStepsPerUnit = 0x1p32;
 
+constexpr double kMostUnits = 0x1p30;
+constexpr std::int64_t kMostSteps = std::int64_t{1} << 62;
+
 inline std::int64_t to_steps(double value) {
-  constexpr double kMost = 0x1p30;
-  const double steps = std::clamp(value, -kMost, kMost) * kStepsPerUnit + 0.5;
+  const double steps = std::clamp(value, -kMostUnits, kMostUnits) * kStepsPerUnit + 0.5;
   const auto towards_zero = static_cast<std::int64_t>(steps);
   return towards_zero - (static_cast<double>(towards_zero) > steps ? 1 : 0);
 }
