@@ -15,13 +15,15 @@
 // cap a
 //    segment always crosses the interior, and within a cap or to the ends of its side never. r itself is
 //    reached.
-// 6. Sees3vtx: three walks. EmptyQuad: exactly the p for which uvp is a valid triangle: then up and pv are
+// 6. Where the flood finds many vertices, all of them at once by angular sweeps (sweep_count.cpp).
+// 7. Sees3vtx: three walks. EmptyQuad: exactly the p for which uvp is a valid triangle: then up and pv are
 // free or
 //    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
 #include "order/point_grid.hpp"
 #include "order/sights.hpp"
+#include "order/sweep_count.hpp"
 
 #include <thalweg/base/assert.hpp>
 #include <thalweg/order/constrained_order.hpp>
@@ -37,6 +39,7 @@ struct OrderWorkspace::Parts {
   detail::Flood flood;
   detail::Occupancy occupancy;
   detail::SideSight side_sight;
+  detail::SweepCount sweeps;
   std::vector<VertexId> undecided;
   std::vector<VertexId> counted;
 };
@@ -52,6 +55,9 @@ struct ConstrainedOrder::Parts {
 };
 
 namespace {
+
+/// Vertices inside up to which pairs are tested; the experiment: tests/bench/order/sweeps.md.
+constexpr std::size_t kMostPairs = 256;
 
 /// A vertex beyond one side of a triangle: u and v are the side's ends, the triangle to its left; w is
 /// opposite.
@@ -149,7 +155,7 @@ void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
 void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
                              OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
-  auto& [flood, occupancy, side_sight, undecided, counted] = *workspace.parts_;
+  auto& [flood, occupancy, side_sight, sweeps, undecided, counted] = *workspace.parts_;
   counted.clear();
   undecided.clear();
   const Triangle corners = counter_clockwise(ground, triangle);
@@ -160,7 +166,15 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
   const bool all = definition == OrderDefinition::Std || !ground.any_blocks();
   flood.start(ground, corners, Tin::triangle_of(*start),
               all ? detail::Barrier::None : detail::Barrier::BlockingEdges);
+  const bool may_sweep = !all && definition != OrderDefinition::Pathcon;
   while (const auto p = flood.next()) {
+    if (may_sweep && flood.inside().size() > kMostPairs) {
+      while (flood.next()) {
+      }
+      const auto found = sweeps.count(ground, corners, Tin::triangle_of(*start), definition, flood);
+      counted.assign(found.begin(), found.end());
+      return;
+    }
     if (counts_alone(ground, corners, *p, definition, side_sight, occupancy)) {
       counted.push_back(*p);
       if (counted.size() > limit) return;

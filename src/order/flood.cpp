@@ -75,6 +75,7 @@ void Flood::spread_from_triangle(TriangleId face) {
     const HalfedgeId h = Tin::halfedge(face, i);
     const bool stops = barrier_ == Barrier::BlockingEdges && ground_->blocks(h);
     const HalfedgeId twin = tin.twin(h);
+    if (barrier_ == Barrier::None && ground_->blocks(h)) barriers_.push_back(h);
     if (stops) {
       if (meets(h)) barriers_.push_back(h);
     } else if (twin.valid()) {

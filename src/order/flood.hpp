@@ -30,7 +30,8 @@ class Flood {
   std::optional<VertexId> next();
   /// All vertices that have come so far.
   [[nodiscard]] std::span<const VertexId> inside() const { return inside_; }
-  /// The blocking edges met so far, each once or twice (from both sides).
+  /// The blocking edges met so far, each once or twice (from both sides); with Barrier::None those of all
+  /// faces met.
   [[nodiscard]] std::span<const HalfedgeId> barriers() const { return barriers_; }
 
  private:

@@ -55,10 +55,13 @@ class OrderWorkspace {
 /// Thread-safe: queries only read the ground; each thread brings its own workspace. The ground must outlive
 /// this.
 ///
-/// Cost, with f the faces of the ground that meet the disc without crossing constraint edges, q the vertices
-/// that Pathcon counts, m the constraint edges met: Std: faces that meet the disc. Pathcon: O(f). The others,
-/// for few vertices: O(f) and for each vertex a walk through the faces on its line of sight. SeesTriang: also
-/// the faces of its view of uv.
+/// Cost, with f the faces of the ground that meet the disc, as far as no constraint edge parts them from the
+/// triangle (under Std, SeesVtx, Sees3vtx and EmptyQuad: all that meet it), q the vertices that Pathcon
+/// counts, m the constraint edges met, n = q + m; in brackets the paper's bound (Table 1): Std, Pathcon: O(f)
+/// [n log n]. SeesOpp, Sees3vtx, EmptyQuad: O(f + n log n) [n log n]. SeesVtx, SeesTriang, ConfEdge: O(f + n
+/// log n), and O(n log n) for each vertex that does not see its opposite corner, hence O(n^2 log n) [n log n,
+/// n^2, n^2]: nothing better decides whether a vertex sees a side, in the paper neither. Up to 256 vertices
+/// pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
 class ConstrainedOrder {
  public:
   /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in

@@ -1,0 +1,193 @@
+// Sweeps instead of pairs.
+//
+// Based on: R. I. Silveira, M. van Kreveld, Towards a Definition of Higher Order Constrained Delaunay
+// Triangulations, 2009, section 3 and Table 1. A vertex inside lies beyond exactly one side uv, so there is a
+// sweep for each side, from the corner w opposite to it; one sweep for all three would change its eye.
+//
+// 1. The view from w beyond uv: of a sight line that is blocked, the part from w to the first obstacle lies
+// in
+//    ground that the flood reached, so that obstacle is an edge that the flood met, or an end of one that was
+//    reached. These are all that the sweep needs. The same for lines from a vertex beyond uv through t.
+// 2. The views from u and v run beside t, over ground that the flood need not reach: they take all that is in
+//    the disc, by a flood through every edge. Where the ground is a polygon they may also run all the way
+//    outside of it, past nothing: those that leave the corner into no fan of it are dropped.
+// 3. SeesTriang: who does not see w is looked at alone: gaps of its view first, as long as they are few, then
+//    the shadows on uv, sorted (sights.cpp). ConfEdge: a sweep from the vertex through uv; any vertex that it
+//    sees in another cap will do, if there is one.
+// 4. EmptyQuad: p sees u and v, and triangle uvp is empty. By angle at u, then by distance from u: p is empty
+//    if its angle at v is smaller than all before it.
+#include "order/sweep_count.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace thalweg::detail {
+
+namespace {
+
+// Each edge once.
+std::vector<HalfedgeId> distinct(const Tin& tin, std::span<const HalfedgeId> edges) {
+  std::vector<HalfedgeId> list;
+  list.reserve(edges.size());
+  for (const HalfedgeId h : edges) {
+    const HalfedgeId twin = tin.twin(h);
+    list.push_back(twin.valid() ? std::min(h, twin) : h);
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+void assign_sorted(std::vector<VertexId>& list, std::span<const VertexId> from) {
+  list.assign(from.begin(), from.end());
+  std::sort(list.begin(), list.end());
+}
+
+std::vector<VertexId> common(const std::vector<VertexId>& a, const std::vector<VertexId>& b) {
+  std::vector<VertexId> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
+/// A fan of faces at a vertex, from its first to its last edge.
+struct Fan {
+  Point2 first, last;
+};
+
+std::vector<Fan> fans_at(const Ground& ground, VertexId eye) {
+  const Tin& tin = ground.tin();
+  std::vector<Fan> fans;
+  for (const HalfedgeId start : tin.outgoing(eye)) {
+    if (!tin.on_rim(start)) continue;
+    HalfedgeId h = start;
+    while (!tin.on_rim(Tin::previous(h))) h = tin.twin(Tin::previous(h));
+    fans.push_back({ground.point(tin.target(start)), ground.point(tin.apex(h))});
+  }
+  return fans;
+}
+
+bool in_fan(Point2 eye, const Fan& fan, Point2 p) {
+  const bool left_of_first = orientation(eye, fan.first, p) >= 0;
+  const bool right_of_last = orientation(eye, p, fan.last) >= 0;
+  const int turn = orientation(eye, fan.first, fan.last);
+  if (turn == 0) return left_of_first;
+  return turn > 0 ? left_of_first && right_of_last : left_of_first || right_of_last;
+}
+
+void drop_outside(const Ground& ground, VertexId eye, std::vector<VertexId>& list) {
+  if (ground.mode() != GroundMode::Polygon) return;
+  const std::vector<Fan> fans = fans_at(ground, eye);
+  if (fans.empty()) return;
+  std::erase_if(list, [&](VertexId p) {
+    return std::none_of(fans.begin(), fans.end(),
+                        [&](const Fan& fan) { return in_fan(ground.point(eye), fan, ground.point(p)); });
+  });
+}
+
+bool right_of(const Ground& ground, VertexId u, VertexId v, VertexId p) {
+  return orientation(ground.point(u), ground.point(v), ground.point(p)) < 0;
+}
+
+}  // namespace
+
+std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle& corners, TriangleId start,
+                                            OrderDefinition definition, const Flood& reached) {
+  corners_ = corners;
+  counted_.clear();
+  inside_ = reached.inside();
+  edges_ = distinct(ground.tin(), reached.barriers());
+  for (std::size_t side = 0; side < 3; ++side) {
+    beyond_[side].clear();
+    for (const VertexId p : inside_) {
+      if (right_of(ground, corners[side], corners[(side + 1) % 3], p)) beyond_[side].push_back(p);
+    }
+    std::sort(beyond_[side].begin(), beyond_[side].end());
+  }
+  if (definition == OrderDefinition::SeesVtx || definition == OrderDefinition::Sees3vtx ||
+      definition == OrderDefinition::EmptyQuad) {
+    all_.start(ground, corners, start, Barrier::None);
+    while (all_.next()) {
+    }
+    all_edges_ = distinct(ground.tin(), all_.barriers());
+  }
+  for (std::size_t side = 0; side < 3; ++side) {
+    if (!beyond_[side].empty()) at_side(ground, definition, side);
+  }
+  return counted_;
+}
+
+void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::size_t side) {
+  const VertexId u = corners_[side], v = corners_[(side + 1) % 3], w = corners_[(side + 2) % 3];
+  if (definition != OrderDefinition::EmptyQuad) {
+    assign_sorted(from_corner_, sweep_.look(ground, w, {v, -1}, beyond_[side], edges_));
+    seen_ = from_corner_;
+  }
+  if (definition == OrderDefinition::SeesVtx || definition == OrderDefinition::Sees3vtx ||
+      definition == OrderDefinition::EmptyQuad) {
+    all_beyond_.clear();
+    for (const VertexId p : all_.inside()) {
+      if (right_of(ground, u, v, p)) all_beyond_.push_back(p);
+    }
+    assign_sorted(from_start_, sweep_.look(ground, u, {v, -1}, all_beyond_, all_edges_));
+    drop_outside(ground, u, from_start_);
+    assign_sorted(from_end_, sweep_.look(ground, v, {u, 1}, all_beyond_, all_edges_));
+    drop_outside(ground, v, from_end_);
+  }
+  if (definition == OrderDefinition::Sees3vtx) seen_ = common(seen_, common(from_start_, from_end_));
+  if (definition == OrderDefinition::EmptyQuad) {
+    seen_ = common(beyond_[side], common(from_start_, from_end_));
+    keep_empty(ground, u, v, seen_);
+  }
+  counted_.insert(counted_.end(), seen_.begin(), seen_.end());
+  if (definition == OrderDefinition::SeesTriang || definition == OrderDefinition::SeesVtx ||
+      definition == OrderDefinition::ConfEdge) {
+    add_light(ground, definition, side);
+  }
+}
+
+// Of the vertices that do not see w those that count all the same.
+void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std::size_t side) {
+  const VertexId u = corners_[side], v = corners_[(side + 1) % 3];
+  const bool alone = beyond_[side].size() == inside_.size();
+  if (definition == OrderDefinition::ConfEdge && alone) return;
+  const auto listed = [](const std::vector<VertexId>& list, VertexId p) {
+    return std::binary_search(list.begin(), list.end(), p);
+  };
+  for (const VertexId p : beyond_[side]) {
+    if (listed(from_corner_, p)) continue;
+    if (definition == OrderDefinition::SeesVtx && !listed(from_start_, p) && !listed(from_end_, p)) continue;
+    if (!side_sight_.sees_side(ground, p, u, v, edges_)) continue;
+    if (definition == OrderDefinition::ConfEdge && !conflicts(ground, p, side)) continue;
+    counted_.push_back(p);
+  }
+}
+
+bool SweepCount::conflicts(const Ground& ground, VertexId p, std::size_t side) {
+  const VertexId u = corners_[side];
+  const auto visible = sweep_.look(ground, p, {u, -1}, inside_, edges_);
+  return std::any_of(visible.begin(), visible.end(), [&](VertexId r) {
+    return !std::binary_search(beyond_[side].begin(), beyond_[side].end(), r);
+  });
+}
+
+void SweepCount::keep_empty(const Ground& ground, VertexId u, VertexId v,
+                            std::vector<VertexId>& candidates) const {
+  const Point2 at_u = ground.point(u), at_v = ground.point(v);
+  std::vector<VertexId> by_angle = all_beyond_;
+  const auto at = [&](VertexId p) { return ground.point(p); };
+  std::sort(by_angle.begin(), by_angle.end(), [&](VertexId a, VertexId b) {
+    const int turn = orientation(at_u, at(a), at(b));
+    return turn != 0 ? turn < 0 : orientation(at_v, at(a), at(b)) > 0;
+  });
+  std::vector<VertexId> empty;
+  VertexId lowest;  // the smallest angle at v so far
+  for (const VertexId p : by_angle) {
+    if (lowest.valid() && orientation(at_v, ground.point(p), ground.point(lowest)) <= 0) continue;
+    lowest = p;
+    empty.push_back(p);
+  }
+  std::sort(empty.begin(), empty.end());
+  candidates = common(candidates, empty);
+}
+
+}  // namespace thalweg::detail

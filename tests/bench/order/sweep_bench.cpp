@@ -1,0 +1,189 @@
+// The order of one triangle whose disc holds much: angular sweeps against walks from pair to pair.
+#include "order/sweep_count.hpp"
+
+#include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/order/constrained_order.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace thalweg::bench {
+namespace {
+
+using detail::Ground;
+
+/// A flat triangle (vertices 0, 1, 2) below a disc of radius 500, and what lies in the disc.
+struct FlatTriangle {
+  std::vector<Point2> points{{-1, 0}, {0, -0.001}, {1, 0}};
+  std::vector<ConstraintEdge> edges;
+  std::mt19937_64 engine{20261126};
+
+  double real(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+  }
+  VertexId add(double x, double y) {
+    points.push_back({x, y});
+    return VertexId{points.size() - 1};
+  }
+  void connect(VertexId a, VertexId b) { edges.push_back({a, b, EdgeKind::Breakline}); }
+  [[nodiscard]] Tin triangulated() const {
+    Progress progress;
+    return triangulate(points, std::vector<double>(points.size(), 0.0), edges, progress);
+  }
+};
+
+const Triangle kFlat{VertexId{std::size_t{1}}, VertexId{std::size_t{2}}, VertexId{std::size_t{0}}};
+
+// A ladder between two walls of m / 4 constraint edges, which every sight line has to climb; above it m / 2
+// small roofs, and m vertices above these, half of them shaded from the corner below.
+Tin ladder(std::size_t m) {
+  FlatTriangle scene;
+  const double side = 4 / static_cast<double>(m);
+  for (const double x : {-5.0, 5.0}) {
+    VertexId last;
+    for (std::size_t i = 0; i <= m / 4; ++i) {
+      const double y =
+          20 + 870 * (static_cast<double>(i) + scene.real(0, 0.5)) / (static_cast<double>(m) / 4);
+      const VertexId here = scene.add(x + scene.real(0, 0.1), y);
+      if (last.valid()) scene.connect(last, here);
+      last = here;
+    }
+  }
+  for (std::size_t i = 0; i < m / 2; ++i) {
+    const double x = scene.real(-2, 2);
+    const double y = 900 + 3 * static_cast<double>(i) / (static_cast<double>(m) / 2);
+    const VertexId left = scene.add(x, y);
+    scene.connect(left, scene.add(x + side, y));
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    const double x = scene.real(-2, 2);
+    scene.add(x, scene.real(905, 945));
+  }
+  return scene.triangulated();
+}
+
+// Vertices all over the disc, and every twentieth edge a constraint edge.
+Tin filled(std::size_t m) {
+  FlatTriangle scene;
+  while (scene.points.size() < m + 3) {
+    const double x = scene.real(-500, 500), y = scene.real(1, 999);
+    if (std::hypot(x, y - 500) < 499) scene.add(x, y);
+  }
+  const Tin plain = scene.triangulated();
+  for (std::size_t i = 0; i < plain.halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (plain.represents_edge(h) && scene.real(0, 1) < 0.05) scene.connect(plain.origin(h), plain.target(h));
+  }
+  return scene.triangulated();
+}
+
+void count_sizes(benchmark::State& state, std::size_t counted) {
+  state.counters["counted"] = static_cast<double>(counted);
+  state.SetComplexityN(state.range(0));
+}
+
+void order_of_one(benchmark::State& state, OrderDefinition definition) {
+  const Tin tin = ladder(static_cast<std::size_t>(state.range(0)));
+  const ConstrainedOrder order(tin);
+  OrderWorkspace workspace;
+  std::size_t counted = 0;
+  for (auto _ : state) counted = order.order(kFlat, definition, workspace);
+  count_sizes(state, counted);
+}
+
+// By a walk from each vertex to the opposite corner.
+std::size_t count_by_pairs(const Ground& ground, detail::Flood& flood) {
+  std::size_t counted = 0;
+  for (const VertexId p : flood.inside()) {
+    const double y = ground.point(p).y;
+    counted += ground.sees(p, y > 0 ? kFlat[0] : kFlat[2]) ? 1 : 0;
+  }
+  return counted;
+}
+
+TriangleId flood_disc(const Ground& ground, detail::Flood& flood) {
+  const TriangleId start = Tin::triangle_of(ground.face_in_angle(kFlat[0], kFlat[1], kFlat[2]).value());
+  flood.start(ground, kFlat, start, detail::Barrier::BlockingEdges);
+  while (flood.next()) {
+  }
+  return start;
+}
+
+void pairs(benchmark::State& state, Tin (*make)(std::size_t)) {
+  const Tin tin = make(static_cast<std::size_t>(state.range(0)));
+  const Ground ground(tin, GroundMode::Hull);
+  detail::Flood flood;
+  flood_disc(ground, flood);
+  std::size_t counted = 0;
+  for (auto _ : state) counted = count_by_pairs(ground, flood);
+  count_sizes(state, counted);
+}
+
+void sweeps(benchmark::State& state, Tin (*make)(std::size_t)) {
+  const Tin tin = make(static_cast<std::size_t>(state.range(0)));
+  const Ground ground(tin, GroundMode::Hull);
+  detail::Flood flood;
+  detail::SweepCount count;
+  const TriangleId start = flood_disc(ground, flood);
+  std::size_t counted = 0;
+  for (auto _ : state) {
+    counted = count.count(ground, kFlat, start, OrderDefinition::SeesOpp, flood).size();
+  }
+  count_sizes(state, counted);
+}
+
+BENCHMARK_CAPTURE(order_of_one, pathcon, OrderDefinition::Pathcon)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oNLogN);
+BENCHMARK_CAPTURE(order_of_one, sees_opp, OrderDefinition::SeesOpp)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oNLogN);
+BENCHMARK_CAPTURE(order_of_one, sees_3vtx, OrderDefinition::Sees3vtx)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oNLogN);
+BENCHMARK_CAPTURE(order_of_one, empty_quad, OrderDefinition::EmptyQuad)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oNLogN);
+BENCHMARK_CAPTURE(order_of_one, sees_triang, OrderDefinition::SeesTriang)
+    ->RangeMultiplier(10)
+    ->Range(100, 10000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_of_one, sees_vtx, OrderDefinition::SeesVtx)
+    ->RangeMultiplier(10)
+    ->Range(100, 10000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_of_one, conf_edge, OrderDefinition::ConfEdge)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(pairs, ladder, ladder)
+    ->RangeMultiplier(10)
+    ->Range(100, 10000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(sweeps, ladder, ladder)
+    ->RangeMultiplier(10)
+    ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity(benchmark::oNLogN);
+// The experiment for kMostPairs in constrained_order.cpp.
+BENCHMARK_CAPTURE(pairs, filled, filled)->RangeMultiplier(4)->Range(16, 65536);
+BENCHMARK_CAPTURE(sweeps, filled, filled)->RangeMultiplier(4)->Range(16, 65536);
+
+}  // namespace
+}  // namespace thalweg::bench

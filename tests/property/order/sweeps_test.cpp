@@ -1,0 +1,165 @@
+// Angular sweeps against the oracle on small scenes, and against tests of pairs on large ones.
+#include "order/occupancy.hpp"
+#include "order/sweep_count.hpp"
+
+#include <thalweg/order/constrained_order.hpp>
+
+#include <gtest/gtest.h>
+#include <support/oracle/law_testing.hpp>
+#include <support/random.hpp>
+#include <support/scene_tin.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace thalweg {
+namespace {
+
+using detail::Ground;
+using oracle::Oracle;
+
+constexpr std::array<OrderDefinition, 6> kSwept = {OrderDefinition::SeesTriang, OrderDefinition::SeesVtx,
+                                                   OrderDefinition::ConfEdge,   OrderDefinition::SeesOpp,
+                                                   OrderDefinition::Sees3vtx,   OrderDefinition::EmptyQuad};
+
+Triangle counter_clockwise(const Tin& tin, Triangle t) {
+  if (orientation(tin.point(t[0]), tin.point(t[1]), tin.point(t[2])) < 0) std::swap(t[1], t[2]);
+  return t;
+}
+
+struct Counter {
+  const Ground& ground;
+  detail::Flood flood;
+  detail::SweepCount sweeps;
+
+  TriangleId flood_from(const Triangle& corners) {
+    const TriangleId start =
+        Tin::triangle_of(ground.face_in_angle(corners[0], corners[1], corners[2]).value());
+    flood.start(ground, corners, start, detail::Barrier::BlockingEdges);
+    while (flood.next()) {
+    }
+    return start;
+  }
+  std::vector<VertexId> counted(const Triangle& corners, OrderDefinition definition) {
+    const TriangleId start = flood_from(corners);
+    const auto found = sweeps.count(ground, corners, start, definition, flood);
+    std::vector<VertexId> list(found.begin(), found.end());
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+};
+
+TEST(Sweeps, CountWhatTheOracleCounts) {
+  oracle::for_each_scene(oracle::kStreams, 40, {.most = 16, .constraints = 10}, [](const Oracle& truth) {
+    const Tin tin = test::ground_of(truth.scene());
+    const Ground ground(tin, test::mode_of(truth.scene()));
+    Counter counter{ground, {}, {}};
+    for (const oracle::Corners& corners : truth.valid_triangles()) {
+      const auto expected = truth.counted(corners);
+      const Triangle t = counter_clockwise(tin, test::triangle(corners));
+      for (const OrderDefinition definition : kSwept) {
+        std::vector<VertexId> vertices;
+        for (int v = 0; v < oracle::kMaxSites; ++v) {
+          if ((expected[static_cast<std::size_t>(definition)] >> v & 1U) != 0) {
+            vertices.push_back(test::vertex(v));
+          }
+        }
+        ASSERT_EQ(counter.counted(t, definition), vertices)
+            << definition_name(definition) << " of " << oracle::to_text(corners);
+      }
+    }
+  });
+}
+
+// The definitions one vertex at a time, by walks over the ground.
+bool counts(const Ground& ground, const Triangle& t, VertexId p, OrderDefinition definition,
+            std::span<const VertexId> inside) {
+  const auto beyond = [&](VertexId x) {
+    std::size_t side = 0;
+    while (orientation(ground.point(t[side]), ground.point(t[(side + 1) % 3]), ground.point(x)) >= 0) ++side;
+    return side;
+  };
+  const std::size_t side = beyond(p);
+  const VertexId u = t[side], v = t[(side + 1) % 3], w = t[(side + 2) % 3];
+  detail::SideSight side_sight;
+  detail::Occupancy occupancy;
+  switch (definition) {
+    case OrderDefinition::SeesTriang:
+      return side_sight.sees_side(ground, p, u, v);
+    case OrderDefinition::SeesVtx:
+      return side_sight.sees_side(ground, p, u, v) &&
+             (ground.sees(p, u) || ground.sees(p, v) || ground.sees(p, w));
+    case OrderDefinition::ConfEdge:
+      return ground.sees(p, w) || std::any_of(inside.begin(), inside.end(), [&](VertexId r) {
+               return beyond(r) != side && ground.sees(p, r);
+             });
+    case OrderDefinition::SeesOpp:
+      return ground.sees(p, w);
+    case OrderDefinition::Sees3vtx:
+      return ground.sees(p, u) && ground.sees(p, v) && ground.sees(p, w);
+    default:
+      return occupancy.inspect(ground, {u, v, p}, detail::Inspection::FirstFault).fault ==
+             TriangleFault::None;
+  }
+}
+
+// A wide ring of vertices, on a lattice or not, and short constraint edges, round triangles with large discs.
+Tin scattered(test::Random& random, std::size_t count, bool lattice, std::size_t share) {
+  std::vector<Point2> points;
+  const auto place = [&] {
+    return lattice ? static_cast<double>(random.integer(0, 39)) : random.real(0, 40);
+  };
+  while (points.size() < count) {
+    const double x = place();
+    points.push_back({x, place()});
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  Progress progress;
+  const std::vector<double> heights(points.size(), 0.0);
+  const Tin plain = triangulate(points, heights, {}, progress);
+  std::vector<ConstraintEdge> edges;
+  for (std::size_t i = 0; i < plain.halfedge_count(); ++i) {
+    const HalfedgeId h{i};
+    if (plain.represents_edge(h) && random.integer<std::size_t>(0, 99) < share) {
+      edges.push_back({plain.origin(h), plain.target(h), EdgeKind::Breakline});
+    }
+  }
+  return triangulate(points, heights, edges, progress);
+}
+
+TEST(Sweeps, CountWhatPairsCount) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  for (const bool lattice : {false, true}) {
+    for (const std::size_t share : {2, 10, 30}) {
+      const Tin tin = scattered(random, 300, lattice, share);
+      const Ground ground(tin, GroundMode::Hull);
+      const ConstrainedOrder order(tin);
+      OrderWorkspace workspace;
+      Counter counter{ground, {}, {}};
+      for (int tries = 0, found = 0; tries < 20000 && found < 40; ++tries) {
+        const auto any = [&] { return VertexId{random.integer<std::size_t>(0, tin.vertex_count() - 1)}; };
+        Triangle t{any(), any(), any()};
+        if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2] || !order.is_valid(t, workspace)) continue;
+        t = counter_clockwise(tin, t);
+        counter.flood_from(t);
+        if (counter.flood.inside().size() < 10) continue;
+        ++found;
+        const std::vector<VertexId> inside(counter.flood.inside().begin(), counter.flood.inside().end());
+        for (const OrderDefinition definition : kSwept) {
+          std::vector<VertexId> expected;
+          for (const VertexId p : inside) {
+            if (counts(ground, t, p, definition, inside)) expected.push_back(p);
+          }
+          std::sort(expected.begin(), expected.end());
+          ASSERT_EQ(counter.counted(t, definition), expected) << definition_name(definition);
+          ASSERT_EQ(order.counted(t, definition, workspace), expected) << definition_name(definition);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace thalweg
