@@ -4,16 +4,18 @@
 // Triangulations, 2009, section 3 and Table 1. A vertex inside lies beyond exactly one side uv, so there is a
 // sweep for each side, from the corner w opposite to it; one sweep for all three would change its eye.
 //
-// 1. The view from w beyond uv: of a sight line that is blocked, the part from w to the first obstacle lies
-// in
+// 1. The view from w beyond uv: of a sight line that is blocked, the part from w to the first obstacle is in
 //    ground that the flood reached, so that obstacle is an edge that the flood met, or an end of one that was
 //    reached. These are all that the sweep needs. The same for lines from a vertex beyond uv through t.
 // 2. The views from u and v run beside t, over ground that the flood need not reach: they take all that is in
 //    the disc, by a flood through every edge. Where the ground is a polygon they may also run all the way
 //    outside of it, past nothing: those that leave the corner into no fan of it are dropped.
-// 3. SeesTriang: who does not see w is looked at alone: gaps of its view first, as long as they are few, then
-//    the shadows on uv, sorted (sights.cpp). ConfEdge: a sweep from the vertex through uv; any vertex that it
-//    sees in another cap will do, if there is one.
+// 3. SeesTriang: p that sees w counts. So does p that sees u if no edge that blocks leaves u strictly between
+//    the directions of v and p: nothing touches the segment from u to p between its ends, and edges that end
+//    in p shade no more than a ray, so p sees the points of uv near u. The same at v. SeesVtx: the same of
+//    those that see a corner. Who is left is looked at alone: gaps of its view first, as long as they are
+//    few, then the shadows on uv, sorted (sights.cpp). ConfEdge: a sweep from the vertex through uv; any
+//    vertex that it sees in another cap will do, if there is one.
 // 4. EmptyQuad: p sees u and v, and triangle uvp is empty. By angle at u, then by distance from u: p is empty
 //    if its angle at v is smaller than all before it.
 #include "order/sweep_count.hpp"
@@ -84,6 +86,27 @@ void drop_outside(const Ground& ground, VertexId eye, std::vector<VertexId>& lis
   });
 }
 
+bool needs_all(OrderDefinition definition) {
+  return definition != OrderDefinition::SeesOpp && definition != OrderDefinition::ConfEdge;
+}
+
+/// The first edge that blocks at u, turning from v by `turn` (+1: counter-clockwise) by less than half a
+/// turn; v if there is none.
+VertexId first_blocking(const Ground& ground, VertexId u, VertexId v, int turn) {
+  const Tin& tin = ground.tin();
+  VertexId first = v;
+  const auto consider = [&](HalfedgeId h, VertexId end) {
+    if (!ground.blocks(h) || orientation(ground.point(u), ground.point(v), ground.point(end)) != turn) return;
+    if (first == v || orientation(ground.point(u), ground.point(end), ground.point(first)) == turn)
+      first = end;
+  };
+  for (const HalfedgeId h : tin.outgoing(u)) {
+    consider(h, tin.target(h));
+    if (tin.on_rim(Tin::previous(h))) consider(Tin::previous(h), tin.apex(h));
+  }
+  return first;
+}
+
 bool right_of(const Ground& ground, VertexId u, VertexId v, VertexId p) {
   return orientation(ground.point(u), ground.point(v), ground.point(p)) < 0;
 }
@@ -103,8 +126,7 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
     }
     std::sort(beyond_[side].begin(), beyond_[side].end());
   }
-  if (definition == OrderDefinition::SeesVtx || definition == OrderDefinition::Sees3vtx ||
-      definition == OrderDefinition::EmptyQuad) {
+  if (needs_all(definition)) {
     all_.start(ground, corners, start, Barrier::None);
     while (all_.next()) {
     }
@@ -122,8 +144,7 @@ void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::
     assign_sorted(from_corner_, sweep_.look(ground, w, {v, -1}, beyond_[side], edges_));
     seen_ = from_corner_;
   }
-  if (definition == OrderDefinition::SeesVtx || definition == OrderDefinition::Sees3vtx ||
-      definition == OrderDefinition::EmptyQuad) {
+  if (needs_all(definition)) {
     all_beyond_.clear();
     for (const VertexId p : all_.inside()) {
       if (right_of(ground, u, v, p)) all_beyond_.push_back(p);
@@ -153,9 +174,22 @@ void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std
   const auto listed = [](const std::vector<VertexId>& list, VertexId p) {
     return std::binary_search(list.begin(), list.end(), p);
   };
+  const bool by_corner = definition != OrderDefinition::ConfEdge;
+  const VertexId edge_at_u = by_corner ? first_blocking(ground, u, v, -1) : v;
+  const VertexId edge_at_v = by_corner ? first_blocking(ground, v, u, 1) : u;
+  const auto sees_near = [&](VertexId p, VertexId corner, VertexId other, VertexId edge, int turn) {
+    return edge == other || orientation(ground.point(corner), ground.point(edge), ground.point(p)) != turn;
+  };
   for (const VertexId p : beyond_[side]) {
     if (listed(from_corner_, p)) continue;
-    if (definition == OrderDefinition::SeesVtx && !listed(from_start_, p) && !listed(from_end_, p)) continue;
+    if (by_corner) {
+      const bool sees_u = listed(from_start_, p), sees_v = listed(from_end_, p);
+      if (definition == OrderDefinition::SeesVtx && !sees_u && !sees_v) continue;
+      if ((sees_u && sees_near(p, u, v, edge_at_u, -1)) || (sees_v && sees_near(p, v, u, edge_at_v, 1))) {
+        counted_.push_back(p);
+        continue;
+      }
+    }
     if (!side_sight_.sees_side(ground, p, u, v, edges_)) continue;
     if (definition == OrderDefinition::ConfEdge && !conflicts(ground, p, side)) continue;
     counted_.push_back(p);

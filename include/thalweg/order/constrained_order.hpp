@@ -55,12 +55,13 @@ class OrderWorkspace {
 /// Thread-safe: queries only read the ground; each thread brings its own workspace. The ground must outlive
 /// this.
 ///
-/// Cost, with f the faces of the ground that meet the disc, as far as no constraint edge parts them from the
-/// triangle (under Std, SeesVtx, Sees3vtx and EmptyQuad: all that meet it), q the vertices that Pathcon
-/// counts, m the constraint edges met, n = q + m; in brackets the paper's bound (Table 1): Std, Pathcon: O(f)
-/// [n log n]. SeesOpp, Sees3vtx, EmptyQuad: O(f + n log n) [n log n]. SeesVtx, SeesTriang, ConfEdge: O(f + n
-/// log n), and O(n log n) for each vertex that does not see its opposite corner, hence O(n^2 log n) [n log n,
-/// n^2, n^2]: nothing better decides whether a vertex sees a side, in the paper neither. Up to 256 vertices
+/// Cost, with f the faces of the ground that meet the disc (under Pathcon, ConfEdge and SeesOpp: as far as no
+/// constraint edge parts them from the triangle), q the vertices that Pathcon counts, m the constraint edges
+/// met, n = q + m; in brackets the paper's bound (Table 1). Std, Pathcon [n log n]: O(f).
+/// SeesOpp, Sees3vtx, EmptyQuad [n log n]: O(f + n log n).
+/// SeesVtx, SeesTriang [n log n, n^2]: the same, and O(n log n) at most for each vertex that sees a corner
+/// only past an edge that ends there or, under SeesTriang, none at all: no less is known to tell if it sees a
+/// side. ConfEdge [n^2]: the same for each vertex that does not see its opposite corner. Up to 256 vertices
 /// pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
 class ConstrainedOrder {
  public:
