@@ -10,6 +10,10 @@
 //    only at ends of edges; if it blocks, so do its ends.
 #include "order/ground.hpp"
 
+#include "base/union_find.hpp"
+
+#include <algorithm>
+
 namespace thalweg::detail {
 
 namespace {
@@ -51,6 +55,26 @@ Ground::Ground(const Tin& tin, GroundMode mode)
     blocking_[tin.origin(h).index()] = true;
     blocking_[tin.target(h).index()] = true;
   }
+  simple_polygons_ = mode == GroundMode::Polygon && find_simple_polygons();
+}
+
+// Each vertex is on the rim, with a single fan, and each piece has one rim (Euler's formula).
+bool Ground::find_simple_polygons() const {
+  std::size_t vertices = 0;
+  for (std::size_t v = 0; v < tin_->vertex_count(); ++v) {
+    const auto fan = tin_->outgoing(VertexId{v});
+    if (fan.empty()) continue;
+    ++vertices;
+    if (std::count_if(fan.begin(), fan.end(), [&](HalfedgeId h) { return tin_->on_rim(h); }) != 1)
+      return false;
+  }
+  UnionFind pieces(tin_->triangle_count());
+  std::size_t count = tin_->triangle_count();
+  for (std::size_t i = 0; i < tin_->halfedge_count(); ++i) {
+    const HalfedgeId h{i}, twin = tin_->twin(h);
+    if (twin.valid() && pieces.unite(Tin::triangle_of(h).value(), Tin::triangle_of(twin).value())) --count;
+  }
+  return vertices + tin_->triangle_count() == tin_->edge_count() + count;
 }
 
 bool Ground::sees(VertexId p, VertexId q) const {

@@ -26,6 +26,9 @@ class Ground {
   /// Whether a vertex is an end of an edge that blocks.
   [[nodiscard]] bool blocks(VertexId v) const { return blocking_[v.index()]; }
   [[nodiscard]] bool any_blocks() const { return any_blocks_; }
+  /// Whether the ground is one simple polygon, or several apart, with no vertex inside, so that the dual of
+  /// each is a tree. Only in mode Polygon.
+  [[nodiscard]] bool simple_polygons() const { return simple_polygons_; }
 
   /// See ConstrainedOrder::sees.
   [[nodiscard]] bool sees(VertexId p, VertexId q) const;
@@ -41,6 +44,7 @@ class Ground {
     VertexId at;
     bool blocked = false;
   };
+  [[nodiscard]] bool find_simple_polygons() const;
   [[nodiscard]] Step next_vertex(VertexId from, VertexId to) const;
   [[nodiscard]] Step cross_faces(HalfedgeId edge, VertexId from, VertexId to) const;
 
@@ -48,6 +52,7 @@ class Ground {
   GroundMode mode_;
   std::vector<bool> blocking_;
   bool any_blocks_ = false;
+  bool simple_polygons_ = false;
 };
 
 /// An open angle of less than 180 degrees at p: from direction p -> right counter-clockwise to p -> left.

@@ -18,6 +18,10 @@
 //    vertex that it sees in another cap will do, if there is one.
 // 4. EmptyQuad: p sees u and v, and triangle uvp is empty. By angle at u, then by distance from u: p is empty
 //    if its angle at v is smaller than all before it.
+// 5. Over simple polygons a walk along the dual tree (polygon_view.cpp) gives each view, and the gaps of a
+// view
+//    are as many as the faces at most (section 5 and Table 2). A triangle uvp whose sides run on the ground
+//    then holds no vertex (Lemma 2).
 #include "order/sweep_count.hpp"
 
 #include <algorithm>
@@ -126,7 +130,8 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
     }
     std::sort(beyond_[side].begin(), beyond_[side].end());
   }
-  if (needs_all(definition)) {
+  disc_ = Circumdisc(ground.point(corners[0]), ground.point(corners[1]), ground.point(corners[2]));
+  if (needs_all(definition) && !ground.simple_polygons()) {
     all_.start(ground, corners, start, Barrier::None);
     while (all_.next()) {
     }
@@ -138,26 +143,37 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
   return counted_;
 }
 
+// What the eye sees of the points, over simple polygons of all in the disc; sorted.
+void SweepCount::view(const Ground& ground, VertexId eye, ViewSweep::HalfPlane half,
+                      std::span<const VertexId> points, std::span<const HalfedgeId> edges,
+                      std::vector<VertexId>& seen) {
+  if (ground.simple_polygons()) {
+    assign_sorted(seen, polygon_view_.look(ground, disc_, eye));
+  } else {
+    assign_sorted(seen, sweep_.look(ground, eye, half, points, edges));
+    drop_outside(ground, eye, seen);
+  }
+}
+
 void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::size_t side) {
   const VertexId u = corners_[side], v = corners_[(side + 1) % 3], w = corners_[(side + 2) % 3];
   if (definition != OrderDefinition::EmptyQuad) {
-    assign_sorted(from_corner_, sweep_.look(ground, w, {v, -1}, beyond_[side], edges_));
-    seen_ = from_corner_;
+    view(ground, w, {v, -1}, beyond_[side], edges_, from_corner_);
+    seen_ = common(from_corner_, beyond_[side]);
   }
   if (needs_all(definition)) {
     all_beyond_.clear();
-    for (const VertexId p : all_.inside()) {
-      if (right_of(ground, u, v, p)) all_beyond_.push_back(p);
+    if (!ground.simple_polygons()) {
+      std::copy_if(all_.inside().begin(), all_.inside().end(), std::back_inserter(all_beyond_),
+                   [&](VertexId p) { return right_of(ground, u, v, p); });
     }
-    assign_sorted(from_start_, sweep_.look(ground, u, {v, -1}, all_beyond_, all_edges_));
-    drop_outside(ground, u, from_start_);
-    assign_sorted(from_end_, sweep_.look(ground, v, {u, 1}, all_beyond_, all_edges_));
-    drop_outside(ground, v, from_end_);
+    view(ground, u, {v, -1}, all_beyond_, all_edges_, from_start_);
+    view(ground, v, {u, 1}, all_beyond_, all_edges_, from_end_);
   }
   if (definition == OrderDefinition::Sees3vtx) seen_ = common(seen_, common(from_start_, from_end_));
   if (definition == OrderDefinition::EmptyQuad) {
     seen_ = common(beyond_[side], common(from_start_, from_end_));
-    keep_empty(ground, u, v, seen_);
+    if (!ground.simple_polygons()) keep_empty(ground, u, v, seen_);
   }
   counted_.insert(counted_.end(), seen_.begin(), seen_.end());
   if (definition == OrderDefinition::SeesTriang || definition == OrderDefinition::SeesVtx ||
@@ -197,10 +213,14 @@ void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std
 }
 
 bool SweepCount::conflicts(const Ground& ground, VertexId p, std::size_t side) {
-  const VertexId u = corners_[side];
-  const auto visible = sweep_.look(ground, p, {u, -1}, inside_, edges_);
+  const auto& across = beyond_[(side + 1) % 3];
+  const auto& also_across = beyond_[(side + 2) % 3];
+  const auto visible = ground.simple_polygons()
+                           ? polygon_view_.look(ground, disc_, p)
+                           : sweep_.look(ground, p, {corners_[side], -1}, inside_, edges_);
   return std::any_of(visible.begin(), visible.end(), [&](VertexId r) {
-    return !std::binary_search(beyond_[side].begin(), beyond_[side].end(), r);
+    return std::binary_search(across.begin(), across.end(), r) ||
+           std::binary_search(also_across.begin(), also_across.end(), r);
   });
 }
 

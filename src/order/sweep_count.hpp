@@ -1,9 +1,10 @@
 #pragma once
 
-/// The order of one triangle whose disc holds much, by angular sweeps.
+/// The order of one triangle whose disc holds much: angular sweeps, and walks of cones in simple polygons.
 
 #include "order/flood.hpp"
 #include "order/ground.hpp"
+#include "order/polygon_view.hpp"
 #include "order/sights.hpp"
 #include "order/view_sweep.hpp"
 
@@ -21,11 +22,13 @@ class SweepCount {
   /// Pre: corners counter-clockwise, a valid triangle that `start` overlaps; the definition is neither Std
   /// nor Pathcon. Complexity, with n the vertices and edges in the disc: n log n for SeesOpp, Sees3vtx and
   /// EmptyQuad; for SeesTriang, SeesVtx and ConfEdge also n log n for each vertex that does not see its
-  /// opposite corner, at most.
+  /// opposite corner, at most. Over simple polygons n in each place, with n the faces that meet the disc.
   std::span<const VertexId> count(const Ground& ground, const Triangle& corners, TriangleId start,
                                   OrderDefinition definition, const Flood& reached);
 
  private:
+  void view(const Ground& ground, VertexId eye, ViewSweep::HalfPlane half, std::span<const VertexId> points,
+            std::span<const HalfedgeId> edges, std::vector<VertexId>& seen);
   void at_side(const Ground& ground, OrderDefinition definition, std::size_t side);
   void add_light(const Ground& ground, OrderDefinition definition, std::size_t side);
   [[nodiscard]] bool conflicts(const Ground& ground, VertexId p, std::size_t side);
@@ -41,6 +44,8 @@ class SweepCount {
   std::vector<VertexId> counted_;
   std::span<const VertexId> inside_;
   ViewSweep sweep_;
+  Circumdisc disc_;
+  PolygonView polygon_view_;
   SideSight side_sight_;
 };
 

@@ -63,6 +63,9 @@ class OrderWorkspace {
 /// only past an edge that ends there or, under SeesTriang, none at all: no less is known to tell if it sees a
 /// side. ConfEdge [n^2]: the same for each vertex that does not see its opposite corner. Up to 256 vertices
 /// pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
+/// Over a simple polygon without vertices inside, by the paper's Table 2: Pathcon, SeesOpp, Sees3vtx,
+/// EmptyQuad [n]: O(f), each face entered once by each view; SeesVtx, SeesTriang [n] and ConfEdge [n log n]:
+/// O(f), and O(f) at most for each of the same vertices.
 class ConstrainedOrder {
  public:
   /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in

@@ -81,6 +81,34 @@ Tin filled(std::size_t m) {
   return scene.triangulated();
 }
 
+// A simple polygon of the same shape: the flat triangle, walls of m / 4 teeth, and a ceiling of m teeth.
+Tin hall(std::size_t m) {
+  FlatTriangle scene;
+  scene.points = {{0, -0.001}, {1, 0}};
+  const auto wall = [&](double side) {
+    for (std::size_t i = 0; i < m / 4; ++i) {
+      const std::size_t up = side > 0 ? i : m / 4 - 1 - i;
+      const double y =
+          20 + 870 * (static_cast<double>(up) + scene.real(0, 0.5)) / (static_cast<double>(m) / 4);
+      scene.add(side * scene.real(4.8, 5), y);
+    }
+  };
+  wall(1);
+  for (std::size_t i = 0; i < m; ++i) {
+    const double x = 2 - 4 * (static_cast<double>(i) + scene.real(0, 0.5)) / static_cast<double>(m);
+    scene.add(x, i % 2 == 0 ? scene.real(904, 906) : scene.real(940, 945));
+  }
+  wall(-1);
+  scene.add(-1, 0);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    scene.edges.push_back({VertexId{i}, VertexId{(i + 1) % scene.points.size()}, EdgeKind::Boundary});
+  }
+  const Tin tin = scene.triangulated();
+  std::vector<bool> keep;
+  for (const Triangle& t : tin.triangles()) keep.push_back(t[0] < t[1] && t[1] < t[2]);
+  return keep_triangles(tin, keep);
+}
+
 void count_sizes(benchmark::State& state, std::size_t counted) {
   state.counters["counted"] = static_cast<double>(counted);
   state.SetComplexityN(state.range(0));
@@ -92,6 +120,16 @@ void order_of_one(benchmark::State& state, OrderDefinition definition) {
   OrderWorkspace workspace;
   std::size_t counted = 0;
   for (auto _ : state) counted = order.order(kFlat, definition, workspace);
+  count_sizes(state, counted);
+}
+
+void order_in_polygon(benchmark::State& state, OrderDefinition definition) {
+  const Tin tin = hall(static_cast<std::size_t>(state.range(0)));
+  const ConstrainedOrder order(tin, GroundMode::Polygon);
+  OrderWorkspace workspace;
+  const Triangle flat{VertexId{std::size_t{0}}, VertexId{std::size_t{1}}, VertexId{tin.vertex_count() - 1}};
+  std::size_t counted = 0;
+  for (auto _ : state) counted = order.order(flat, definition, workspace);
   count_sizes(state, counted);
 }
 
@@ -169,6 +207,41 @@ BENCHMARK_CAPTURE(order_of_one, sees_vtx, OrderDefinition::SeesVtx)
 BENCHMARK_CAPTURE(order_of_one, conf_edge, OrderDefinition::ConfEdge)
     ->RangeMultiplier(10)
     ->Range(100, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, pathcon, OrderDefinition::Pathcon)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, sees_triang, OrderDefinition::SeesTriang)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, sees_vtx, OrderDefinition::SeesVtx)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, conf_edge, OrderDefinition::ConfEdge)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, sees_opp, OrderDefinition::SeesOpp)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, sees_3vtx, OrderDefinition::Sees3vtx)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK_CAPTURE(order_in_polygon, empty_quad, OrderDefinition::EmptyQuad)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 BENCHMARK_CAPTURE(pairs, ladder, ladder)

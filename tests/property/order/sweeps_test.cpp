@@ -10,6 +10,7 @@
 #include <support/scene_tin.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace thalweg {
@@ -128,37 +129,103 @@ Tin scattered(test::Random& random, std::size_t count, bool lattice, std::size_t
   return triangulate(points, heights, edges, progress);
 }
 
+// Compares the counts of triangles with many vertices in their discs.
+void expect_same_as_pairs(const Tin& tin, GroundMode mode, test::Random& random, std::size_t fewest) {
+  const Ground ground(tin, mode);
+  const ConstrainedOrder order(tin, mode);
+  OrderWorkspace workspace;
+  Counter counter{ground, {}, {}};
+  for (int tries = 0, found = 0; tries < 20000 && found < 40; ++tries) {
+    const auto any = [&] { return VertexId{random.integer<std::size_t>(0, tin.vertex_count() - 1)}; };
+    Triangle t{any(), any(), any()};
+    if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2] || !order.is_valid(t, workspace)) continue;
+    t = counter_clockwise(tin, t);
+    counter.flood_from(t);
+    if (counter.flood.inside().size() < fewest) continue;
+    ++found;
+    const std::vector<VertexId> inside(counter.flood.inside().begin(), counter.flood.inside().end());
+    for (const OrderDefinition definition : kSwept) {
+      std::vector<VertexId> expected;
+      for (const VertexId p : inside) {
+        if (counts(ground, t, p, definition, inside)) expected.push_back(p);
+      }
+      std::sort(expected.begin(), expected.end());
+      ASSERT_EQ(counter.counted(t, definition), expected) << definition_name(definition);
+      ASSERT_EQ(order.counted(t, definition, workspace), expected) << definition_name(definition);
+    }
+  }
+}
+
 TEST(Sweeps, CountWhatPairsCount) {
   test::Random random;
   SCOPED_TRACE(random.trace());
   for (const bool lattice : {false, true}) {
     for (const std::size_t share : {2, 10, 30}) {
-      const Tin tin = scattered(random, 300, lattice, share);
-      const Ground ground(tin, GroundMode::Hull);
-      const ConstrainedOrder order(tin);
-      OrderWorkspace workspace;
-      Counter counter{ground, {}, {}};
-      for (int tries = 0, found = 0; tries < 20000 && found < 40; ++tries) {
-        const auto any = [&] { return VertexId{random.integer<std::size_t>(0, tin.vertex_count() - 1)}; };
-        Triangle t{any(), any(), any()};
-        if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2] || !order.is_valid(t, workspace)) continue;
-        t = counter_clockwise(tin, t);
-        counter.flood_from(t);
-        if (counter.flood.inside().size() < 10) continue;
-        ++found;
-        const std::vector<VertexId> inside(counter.flood.inside().begin(), counter.flood.inside().end());
-        for (const OrderDefinition definition : kSwept) {
-          std::vector<VertexId> expected;
-          for (const VertexId p : inside) {
-            if (counts(ground, t, p, definition, inside)) expected.push_back(p);
-          }
-          std::sort(expected.begin(), expected.end());
-          ASSERT_EQ(counter.counted(t, definition), expected) << definition_name(definition);
-          ASSERT_EQ(order.counted(t, definition, workspace), expected) << definition_name(definition);
-        }
-      }
+      expect_same_as_pairs(scattered(random, 300, lattice, share), GroundMode::Hull, random, 10);
     }
   }
+}
+
+// A star-shaped polygon with long and short spikes about the origin.
+Tin spiky_polygon(test::Random& random, std::size_t corners) {
+  std::vector<Point2> points;
+  std::vector<ConstraintEdge> edges;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double angle = 2 * 3.141592653589793 * static_cast<double>(i) / static_cast<double>(corners);
+    const double radius = random.integer(0, 3) == 0 ? random.real(2, 4) : random.real(8, 10);
+    points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    edges.push_back({VertexId{i}, VertexId{(i + 1) % corners}, EdgeKind::Boundary});
+  }
+  Progress progress;
+  const Tin tin = triangulate(points, std::vector<double>(corners, 0.0), edges, progress);
+  // Counter-clockwise corners in order: a triangle lies inside exactly if its corners come in that order.
+  std::vector<bool> keep;
+  for (const Triangle& t : tin.triangles()) keep.push_back(t[0] < t[1] && t[1] < t[2]);
+  return keep_triangles(tin, keep);
+}
+
+TEST(Sweeps, CountWhatPairsCountInSimplePolygons) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 6; ++i) {
+    const Tin tin = spiky_polygon(random, 300);
+    EXPECT_TRUE(Ground(tin, GroundMode::Polygon).simple_polygons());
+    EXPECT_FALSE(Ground(tin, GroundMode::Hull).simple_polygons());
+    expect_same_as_pairs(tin, GroundMode::Polygon, random, 6);
+  }
+}
+
+TEST(Sweeps, FollowLemma2InSimplePolygons) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  const Tin tin = spiky_polygon(random, 2000);
+  const ConstrainedOrder order(tin, GroundMode::Polygon);
+  OrderWorkspace workspace;
+  for (const Triangle& t : tin.triangles()) {
+    EXPECT_EQ(order.counted(t, OrderDefinition::Sees3vtx, workspace),
+              order.counted(t, OrderDefinition::EmptyQuad, workspace));
+  }
+}
+
+TEST(Sweeps, KnowSimplePolygons) {
+  // A ring round a hole, and two triangles that meet in a vertex only.
+  const std::vector<Point2> ring{{0, 0}, {9, 0}, {9, 9}, {0, 9}, {3, 3}, {6, 3}, {6, 6}, {3, 6}};
+  std::vector<Triangle> triangles;
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    triangles.push_back({VertexId{a}, VertexId{b}, VertexId{c}});
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    add(i, (i + 1) % 4, 4 + i);
+    add((i + 1) % 4, 4 + (i + 1) % 4, 4 + i);
+  }
+  const std::vector<double> heights(8, 0.0);
+  EXPECT_FALSE(Ground(Tin(ring, heights, triangles, {}), GroundMode::Polygon).simple_polygons());
+  triangles.resize(6);
+  EXPECT_TRUE(Ground(Tin(ring, heights, triangles, {}), GroundMode::Polygon).simple_polygons());
+  triangles.clear();
+  add(0, 4, 3);
+  add(4, 5, 6);
+  EXPECT_FALSE(Ground(Tin(ring, heights, triangles, {}), GroundMode::Polygon).simple_polygons());
 }
 
 }  // namespace
