@@ -4,6 +4,8 @@
 // and keep their orientation in the written coordinates.
 #include "pipeline/higher_order.hpp"
 
+#include "pipeline/std_order_error.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/order_triangles.hpp>
@@ -32,11 +34,7 @@ FixedFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const 
   auto faces = find_fixed_faces(surface, std::move(triangles), {}, progress);
   progress.advance(0.9);
   if (faces) return std::move(*faces);
-  throw Error(
-      ErrorCode::Unsupported,
-      "no triangulation with these lines has order at most " + std::to_string(labelling.order) + " under " +
-          std::string(definition_name(labelling.definition)) +
-          "; take a definition that knows of lines, such as pathcon or sees-opp, or a larger --order");
+  throw no_triangulation(terrain, labelling, progress);
 }
 
 HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& faces,

@@ -37,6 +37,11 @@ void check_ids(const std::array<std::uint32_t, 3>& corners, std::size_t vertices
   }
 }
 
+// Under Std more than triangles alone.
+bool asks_for_std(const OrderConfig& config) {
+  return config.definition == OrderDefinition::Std && config.triangles.empty();
+}
+
 TriangleOrders ask(const ConstrainedOrder& orders, const std::array<std::uint32_t, 3>& corners,
                    OrderWorkspace& workspace) {
   check_ids(corners, orders.ground().vertex_count());
@@ -157,6 +162,10 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
     write_list(quadrilaterals_file, config.quadrilaterals_path, quadrilateral_list(quadrilaterals));
   }
   if (config.census) take_census(orders, result, progress);
+  if (!orders.unconstrained() && (config.census || asks_for_std(config))) {
+    result.std_order = find_std_order_interval(orders, progress);
+    result.worst_triangle = ground.tin.triangle(result.std_order->worst);
+  }
   outputs.commit();
   progress.advance(1);
   return result;
@@ -179,6 +188,40 @@ nlohmann::ordered_json census_json(const OrderResult& result) {
                     {"edges_per_point", per_point(row.edges)}});
   }
   return rows;
+}
+
+nlohmann::ordered_json std_order_json(const OrderResult& result) {
+  const StdOrderInterval& interval = *result.std_order;
+  nlohmann::ordered_json json = {{"at_least", interval.at_least}, {"at_most", interval.at_most}};
+  if (interval.demand) {
+    const auto& [a, b, triangle, order] = *interval.demand;
+    json["demand"] = {{"edge", {a.value(), b.value()}},
+                      {"triangle", {triangle[0].value(), triangle[1].value(), triangle[2].value()}},
+                      {"order", order}};
+  }
+  const Triangle& worst = result.worst_triangle;
+  json["delaunay_triangle"] = {worst[0].value(), worst[1].value(), worst[2].value()};
+  return json;
+}
+
+std::string std_order_text(const OrderResult& result) {
+  const StdOrderInterval& interval = *result.std_order;
+  std::string text =
+      fmt::format("std: with these lines the smallest order of a triangulation is from {} to {}",
+                  interval.at_least, interval.at_most);
+  if (interval.at_least == interval.at_most) {
+    text = fmt::format("std: with these lines the smallest order of a triangulation is {}", interval.at_most);
+  }
+  if (interval.demand) {
+    const auto& [a, b, triangle, order] = *interval.demand;
+    text += fmt::format(
+        "; on the left of constraint edge {}-{} no triangle has an order below {}, that of {}, "
+        "{}, {}",
+        a.value(), b.value(), order, triangle[0].value(), triangle[1].value(), triangle[2].value());
+  }
+  const Triangle& worst = result.worst_triangle;
+  return text + fmt::format("; the constrained Delaunay triangulation has order {}, at {}, {}, {}\n",
+                            interval.at_most, worst[0].value(), worst[1].value(), worst[2].value());
 }
 
 std::string census_text(const OrderResult& result) {
@@ -215,6 +258,7 @@ std::string to_json(const OrderResult& result) {
   if (result.quadrilaterals) json["quadrilaterals"] = *result.quadrilaterals;
   if (result.conflicts) json["conflicts"] = *result.conflicts;
   if (result.undecided_faces) json["undecided_faces"] = *result.undecided_faces;
+  if (result.std_order) json["std_order"] = std_order_json(result);
   if (!result.census.empty()) json["census"] = census_json(result);
   if (!result.not_taken.empty()) json["not_taken"] = result.not_taken;
   return json.dump(2) + "\n";
@@ -247,6 +291,7 @@ std::string to_text(const OrderResult& result) {
     }
     text += "\n";
   }
+  if (result.std_order) text += std_order_text(result);
   if (!result.census.empty()) text += census_text(result);
   for (const TriangleOrders& answer : result.asked) {
     text += fmt::format("triangle {}, {}, {}", answer.corners[0], answer.corners[1], answer.corners[2]);

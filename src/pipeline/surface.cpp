@@ -14,6 +14,7 @@
 #include "pipeline/higher_order.hpp"
 #include "pipeline/proof_file.hpp"
 #include "pipeline/reference.hpp"
+#include "pipeline/std_order_error.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geodesy/area.hpp>
@@ -217,18 +218,7 @@ std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labe
   const TinOrders orders =
       find_tin_orders(terrain.ground, {.definition = OrderDefinition::Std, .mode = terrain.mode}, progress);
   if (orders.max_order <= labelling.order) return orders.max_order;
-  const auto worst = std::max_element(orders.orders.begin(), orders.orders.end()) - orders.orders.begin();
-  const Triangle& t = terrain.ground.triangle(TriangleId{static_cast<std::size_t>(worst)});
-  std::string corners;
-  for (const VertexId v : t) {
-    const Point2 p = terrain.written.empty() ? terrain.ground.point(v) : terrain.written[v.index()];
-    corners += (corners.empty() ? "(" : ", (") + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
-  }
-  throw Error(ErrorCode::Unsupported,
-              "no triangulation with these lines has order at most " + std::to_string(labelling.order) +
-                  " under std: the constrained Delaunay triangulation has order " +
-                  std::to_string(orders.max_order) + ", at triangle " + corners +
-                  "; take a definition that knows of lines, such as pathcon or sees-opp");
+  throw no_triangulation(terrain, labelling, progress);
 }
 
 void choose_first_order(Labelled& labelled, const Terrain& terrain, const RunContext& run,

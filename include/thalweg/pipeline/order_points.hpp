@@ -7,6 +7,7 @@
 #include <thalweg/io/source.hpp>
 #include <thalweg/order/constrained_order.hpp>
 #include <thalweg/order/definition.hpp>
+#include <thalweg/order/std_order.hpp>
 
 #include <array>
 #include <cstddef>
@@ -61,6 +62,9 @@ struct OrderResult {
       undecided_faces;
   std::vector<CensusRow> census;       ///< by definition, then order
   std::vector<std::string> not_taken;  ///< definitions that the census leaves out, and why
+  /// Under Std with constraint edges, and in a census with them.
+  std::optional<StdOrderInterval> std_order;
+  Triangle worst_triangle{};  ///< of `std_order`
   std::vector<TriangleOrders> asked;
 };
 
