@@ -4,6 +4,7 @@
 #include <support/oracle/triangulations.hpp>
 
 #include <bit>
+#include <map>
 
 namespace thalweg::oracle {
 namespace {
@@ -14,6 +15,29 @@ constexpr auto index(Definition d) {
 
 bool within(SiteSet inner, SiteSet outer) {
   return (inner & ~outer) == 0;
+}
+
+// Section 4's sweep through u and v, where it is sound: whether a site beyond uv counts does not depend on
+// the third corner while it is in the circle, under sees-triang and empty-quad.
+TEST(OracleTriangleLaws, Section4SweepHoldsForSeesTriangAndEmptyQuad) {
+  for_each_scene(kStreams, 40, {}, [](const Oracle& oracle) {
+    const Scene& scene = oracle.scene();
+    std::map<std::pair<Edge, int>, std::array<bool, 2>> seen;  // by u, v and p
+    for (const Corners& t : oracle.valid_triangles()) {
+      const auto counted = oracle.counted(t);
+      for (std::size_t side = 0; side < 3; ++side) {
+        const Edge uv{t[side], t[(side + 1) % 3]};
+        for (int p = 0; p < scene.size(); ++p) {
+          if ((counted[index(Definition::Std)] >> p & 1U) == 0) continue;
+          if (turn(scene.at(uv.first), scene.at(uv.second), scene.at(p)) >= 0) continue;
+          const std::array<bool, 2> now{(counted[index(Definition::SeesTriang)] >> p & 1U) != 0,
+                                        (counted[index(Definition::EmptyQuad)] >> p & 1U) != 0};
+          const auto [at, fresh] = seen.emplace(std::pair(uv, p), now);
+          ASSERT_EQ(at->second, now) << to_text(t) << " and " << p;
+        }
+      }
+    }
+  });
 }
 
 // Lemma 1: what a weaker definition counts, each stronger one counts too, along both chains.

@@ -37,6 +37,23 @@ TEST(OracleTriangulationLaws, Property1) {
   });
 }
 
+// Property 3: as k grows, triangulations are added and none is lost, up to all that there are.
+TEST(OracleTriangulationLaws, Property3) {
+  for_each_scene(kStreams, 30, kSmall, [](const Oracle& oracle) {
+    const Enumeration all = enumerate(oracle);
+    for (const Definition d : kDefinitions) {
+      std::vector<std::size_t> before;
+      for (int k = 0; k <= oracle.scene().size() - 3; ++k) {
+        const std::vector<std::size_t> now = all.of_order(d, k);
+        ASSERT_TRUE(std::includes(now.begin(), now.end(), before.begin(), before.end()))
+            << name_of(d) << ", k = " << k;
+        before = now;
+      }
+      ASSERT_EQ(before.size(), all.members.size()) << name_of(d);
+    }
+  });
+}
+
 // Section 2: the recursion of the paper's greedy triangulation gives the Delaunay triangulation with the edge
 // as one more constraint.
 TEST(OracleTriangulationLaws, GreedyIsDelaunayWithTheEdgeConstrained) {

@@ -132,6 +132,38 @@ TEST(SceneLaws, Figure2HasEightOrders) {
   EXPECT_EQ(orders.size(), kDefinitionCount);
 }
 
+bool counts(const SceneFile& file, const char* label, std::size_t triangle, Definition d) {
+  const auto at = std::find(file.labels.begin(), file.labels.end(), label) - file.labels.begin();
+  return (file.triangles.at(triangle).counted[static_cast<std::size_t>(d)] >> at & 1U) != 0;
+}
+
+// Section 4: along the sweep p is in the circle of all three triangles, of which the second is listed first.
+TEST(SceneLaws, Section4SweepMissesSitesThatCountAgain) {
+  using enum Definition;
+  for (const auto& [name, definitions] : {std::pair("sweep-sees-opp", std::vector{SeesOpp, Sees3Vtx}),
+                                          std::pair("sweep-sees-vtx", std::vector{SeesVtx, SeesOpp})}) {
+    const SceneFile file = scene(name);
+    for (const std::size_t triangle : {0U, 1U, 2U}) EXPECT_TRUE(counts(file, "p", triangle, Std));
+    for (const Definition d : definitions) {
+      EXPECT_TRUE(counts(file, "p", 1, d)) << name << " " << name_of(d);
+      EXPECT_FALSE(counts(file, "p", 0, d)) << name << " " << name_of(d);
+      EXPECT_TRUE(counts(file, "p", 2, d)) << name << " " << name_of(d);
+    }
+  }
+}
+
+// Section 6 says that the order under empty-quad can be much larger than under std. It is never larger.
+TEST(SceneLaws, Section6EmptyQuadIsNeverLargerThanStd) {
+  for (const std::string& name : scene_names(kFolder)) {
+    for (const ExpectedTriangle& t : scene(name).triangles) {
+      EXPECT_LE(order(t, Definition::EmptyQuad), order(t, Definition::Std)) << name;
+    }
+  }
+  const ExpectedTriangle smaller = scene("figure-3-right").triangles.at(0);
+  EXPECT_EQ(order(smaller, Definition::EmptyQuad), 1);
+  EXPECT_EQ(order(smaller, Definition::Std), 5);
+}
+
 // How far the order jumps when one site passes one criticality. Property 4 allows 1.
 int jump(const std::string& name, Definition d) {
   const SceneFile before = scene(name + "-before"), after = scene(name + "-after");
