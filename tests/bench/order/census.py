@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The census of orders on growing input: how many useful edges and triangles of order at most k are there a point?
 
-Usage: census.py THALWEG FOLDER [--sizes N[,N...]] [--order K]
+Usage: census.py THALWEG FOLDER [--sizes N[,N...]] [--order K] [--terrain NAME POINTS LINES...]...
 Writes FOLDER/census.md (table) and FOLDER/census.svg (plot). Inputs are made here, from fixed seeds:
 
   random      uniform points, no constraint edges
@@ -10,6 +10,9 @@ Writes FOLDER/census.md (table) and FOLDER/census.svg (plot). Inputs are made he
   random-20   the same, 20 %
   polylines   points with winding lines through them
   comb        points between parallel constraint edges, each half as long as the square is wide
+
+and real ones where --terrain names them: a source of points, and sources of lines, as `thalweg order` takes them; where
+lines cross, the crossing becomes a vertex.
 """
 import argparse
 import json
@@ -19,7 +22,7 @@ import random
 import subprocess
 
 SCENES = ("random", "random-5", "random-20", "polylines", "comb")
-COLOURS = ("#444444", "#1b9e77", "#66a61e", "#d95f02", "#7570b3")
+COLOURS = ("#444444", "#1b9e77", "#66a61e", "#d95f02", "#7570b3", "#e7298a", "#a6761d", "#1f78b4", "#b15928", "#6a3d9a")
 
 
 def turn(p, q, r):
@@ -89,12 +92,16 @@ def make(thalweg, folder, scene, count):
     return bool(lines)
 
 
+def count_orders(thalweg, points, lines, order):
+    command = [thalweg, "order", points, "--census", "--order", str(order), "-q", "-f", "json", "--crossing", "mean"]
+    for source in lines:
+        command += ["--breaklines", source]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
 def take(thalweg, folder, scene, count, order):
     has_lines = make(thalweg, folder, scene, count)
-    command = [thalweg, "order", folder / "points.csv", "--census", "--order", str(order), "-q", "-f", "json"]
-    if has_lines:
-        command += ["--breaklines", folder / "lines.csv"]
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return count_orders(thalweg, folder / "points.csv", [folder / "lines.csv"] if has_lines else [], order)
 
 
 def table(results, order):
@@ -118,7 +125,7 @@ def table(results, order):
 
 def plot(results, order, definition="sees-opp"):
     """Useful edges a point against the number of points (logarithmic); a curve for each k, dashed by k."""
-    curves = {}
+    curves, scenes = {}, list(dict.fromkeys(scene for scene, _ in results))
     for scene, result in results:
         for row in result["census"]:
             if row["definition"] == definition:
@@ -141,14 +148,17 @@ def plot(results, order, definition="sees-opp"):
     for (scene, k), curve in sorted(curves.items()):
         path = "L".join(f"{at_x(n):.1f} {at_y(v):.1f}" for n, v in sorted(curve))
         dash = ["none", "8 3", "4 3", "1 3", "8 3 1 3"][k % 5]
-        parts.append(f'<path d="M{path}" fill="none" stroke="{COLOURS[SCENES.index(scene)]}" stroke-width="1.5" '
-                     f'stroke-dasharray="{dash}"/>')
-    for i, scene in enumerate(SCENES):
-        parts.append(f'<text x="{width - 120}" y="{60 + 18 * i}" fill="{COLOURS[i]}">{scene}</text>')
+        colour = COLOURS[scenes.index(scene) % len(COLOURS)]
+        parts.append(f'<path d="M{path}" fill="none" stroke="{colour}" stroke-width="1.5" stroke-dasharray="{dash}"/>')
+        if len(curve) == 1:
+            parts.append(f'<circle cx="{at_x(curve[0][0]):.1f}" cy="{at_y(curve[0][1]):.1f}" r="3" fill="{colour}"/>')
+    for i, scene in enumerate(scenes):
+        parts.append(f'<text x="{width - 120}" y="{60 + 18 * i}" fill="{COLOURS[i % len(COLOURS)]}">{scene}</text>')
+    below = 80 + 18 * len(scenes)
     for k in range(order + 1):
         dash = ["none", "8 3", "4 3", "1 3", "8 3 1 3"][k % 5]
-        parts.append(f'<path d="M{width - 120} {180 + 18 * k}h40" stroke="black" stroke-dasharray="{dash}"/>'
-                     f'<text x="{width - 70}" y="{184 + 18 * k}">k = {k}</text>')
+        parts.append(f'<path d="M{width - 120} {below + 18 * k}h40" stroke="black" stroke-dasharray="{dash}"/>'
+                     f'<text x="{width - 70}" y="{below + 4 + 18 * k}">k = {k}</text>')
     parts.append(f'<text x="{left + 200}" y="{height - 6}">vertices</text></svg>')
     return "\n".join(parts) + "\n"
 
@@ -159,6 +169,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--sizes", default="1000,3000,10000")
     parser.add_argument("--order", type=int, default=3)
+    parser.add_argument("--terrain", nargs="+", action="append", default=[], metavar="NAME POINTS LINES")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     results = []
@@ -166,6 +177,9 @@ def main():
         for count in map(int, options.sizes.split(",")):
             results.append((scene, take(options.thalweg, options.folder, scene, count, options.order)))
             print(scene, count, "done", flush=True)
+    for name, points, *lines in options.terrain:
+        results.append((name, count_orders(options.thalweg, points, lines, options.order)))
+        print(name, "done", flush=True)
     (options.folder / "census.md").write_text(table(results, options.order))
     (options.folder / "census.svg").write_text(plot(results, options.order))
 
