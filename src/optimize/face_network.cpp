@@ -39,9 +39,9 @@ struct Outlet {
 template <std::size_t Criteria>
 class Builder {
  public:
-  Builder(const FaceTerms<Criteria>& terms, std::span<const FaceTriangulations> lists,
+  Builder(const FaceTerms<Criteria>& terms, const ListedFaces& listed, Purpose purpose,
           const Progress& progress)
-      : terms_(terms), lists_(lists), progress_(progress) {}
+      : terms_(terms), listed_(listed), purpose_(purpose), progress_(progress) {}
 
   FaceNetwork<Criteria> run(PlateauNodes* pits, std::size_t pit_level, std::span<const PlateauSet> closed) {
     label_faces(pits);
@@ -60,15 +60,27 @@ class Builder {
     if (pits != nullptr) {
       for (std::uint32_t e = 0; e < terms_.faces.edges.size(); ++e) links.push_back(pits->link_of(e));
     }
-    out_.faces.resize(lists_.size());
-    for_each_block(lists_.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) out_.faces[f] = label_face(terms_, links, f, lists_[f]);
+    out_.faces.resize(listed_.lists.size());
+    for_each_block(out_.faces.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        const FaceTriangulations& list = listed_.lists[f];
+        out_.faces[f] =
+            relaxed(f) ? relax_face(terms_, links, f, list.size) : label_face(terms_, links, f, list);
+      }
     });
     LabelNetwork<Criteria>& network = out_.network;
     for (const FaceLabels<Criteria>& labels : out_.faces) {
       network.unary.insert(network.unary.end(), labels.unary.begin(), labels.unary.end());
       network.first_label.push_back(static_cast<std::uint32_t>(network.unary.size()));
     }
+  }
+
+  [[nodiscard]] bool relaxed(std::size_t face) const {
+    return purpose_ == Purpose::Bound && listed_.partial[face] != 0;
+  }
+  /// Classes of a face at one of its sides.
+  [[nodiscard]] std::size_t classes_at(std::uint32_t face, std::uint32_t side) const {
+    return terms_.sides.triangles.row(side).size() + (relaxed(face) ? 1 : 0);
   }
 
   std::size_t add_classes(std::span<const std::uint16_t> classes) {
@@ -89,15 +101,13 @@ class Builder {
     for (std::uint32_t e = 0; e < terms_.faces.edges.size(); ++e) {
       const std::uint32_t left = terms_.sides.owner[2 * e], right = terms_.sides.owner[2 * e + 1];
       if (left == right || left == FaceSides::kNoFace || right == FaceSides::kNoFace) continue;
-      const auto of_left = terms_.sides.triangles.row(2 * e),
-                 of_right = terms_.sides.triangles.row(2 * e + 1);
       PairTerm pair{.a = left, .b = right};
       pair.class_a = add_classes(column(left, 2 * e));
       pair.class_b = add_classes(column(right, 2 * e + 1));
-      pair.classes_a = static_cast<std::uint16_t>(of_left.size());
-      pair.classes_b = static_cast<std::uint16_t>(of_right.size());
+      pair.classes_a = static_cast<std::uint16_t>(classes_at(left, 2 * e));
+      pair.classes_b = static_cast<std::uint16_t>(classes_at(right, 2 * e + 1));
       pair.weight = network.weights.size();
-      network.weights.resize(network.weights.size() + of_left.size() * of_right.size());
+      network.weights.resize(network.weights.size() + std::size_t{pair.classes_a} * pair.classes_b);
       network.pairs.push_back(pair);
       between.push_back(e);
     }
@@ -111,10 +121,24 @@ class Builder {
     for (const std::uint32_t t : terms_.sides.triangles.row(2 * e + 1)) {
       right.push_back(face_of(terms_.tin, terms_.faces, t, terms_.scale));
     }
-    std::size_t at = pair.weight;
-    for (const std::uint32_t t : terms_.sides.triangles.row(2 * e)) {
-      const Face left = face_of(terms_.tin, terms_.faces, t, terms_.scale);
-      for (const Face& other : right) out_.network.weights[at++] = terms_.of(left, other);
+    const auto of_left = terms_.sides.triangles.row(2 * e);
+    const auto weight = [&](std::size_t p, std::size_t q) -> Weight<Criteria>& {
+      return out_.network.weights[pair.weight + p * pair.classes_b + q];
+    };
+    const auto lower = [](Weight<Criteria>& least, const Weight<Criteria>& other, bool first) {
+      for (std::size_t level = 0; level < Criteria; ++level) {
+        least[level] = first ? other[level] : std::min(least[level], other[level]);
+      }
+    };
+    for (std::size_t p = 0; p < of_left.size(); ++p) {
+      const Face left = face_of(terms_.tin, terms_.faces, of_left[p], terms_.scale);
+      for (std::size_t q = 0; q < right.size(); ++q) weight(p, q) = terms_.of(left, right[q]);
+      if (pair.classes_b == right.size()) continue;
+      for (std::size_t q = 0; q < right.size(); ++q) lower(weight(p, right.size()), weight(p, q), q == 0);
+    }
+    if (pair.classes_a == of_left.size()) return;
+    for (std::size_t q = 0; q < pair.classes_b; ++q) {
+      for (std::size_t p = 0; p < of_left.size(); ++p) lower(weight(of_left.size(), q), weight(p, q), p == 0);
     }
   }
 
@@ -268,7 +292,8 @@ class Builder {
   static constexpr std::uint32_t kNoVariable = 0xffffffffU;
 
   const FaceTerms<Criteria>& terms_;
-  std::span<const FaceTriangulations> lists_;
+  const ListedFaces& listed_;
+  Purpose purpose_;
   const Progress& progress_;
   std::size_t pit_level_ = 0;
   FaceNetwork<Criteria> out_;
@@ -280,18 +305,19 @@ class Builder {
 }  // namespace
 
 template <std::size_t Criteria>
-FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms,
-                                    std::span<const FaceTriangulations> lists, PlateauNodes* pits,
-                                    std::size_t pit_level, std::span<const PlateauSet> closed,
-                                    const Progress& progress) {
-  return Builder<Criteria>(terms, lists, progress).run(pits, pit_level, closed);
+FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const ListedFaces& listed,
+                                    Purpose purpose, PlateauNodes* pits, std::size_t pit_level,
+                                    std::span<const PlateauSet> closed, const Progress& progress) {
+  return Builder<Criteria>(terms, listed, purpose, progress).run(pits, pit_level, closed);
 }
 
-void join_always(const FixedFaces& faces, std::span<const FaceTriangulations> lists, PlateauNodes& pits) {
+void join_always(const FixedFaces& faces, const ListedFaces& listed, PlateauNodes& pits) {
   std::vector<PlateauLink> here;
   for (bool again = true; again;) {
     again = false;
-    for (const FaceTriangulations& list : lists) {
+    for (std::size_t f = 0; f < listed.lists.size(); ++f) {
+      if (listed.partial[f] != 0) continue;
+      const FaceTriangulations& list = listed.lists[f];
       std::map<PlateauLink, std::size_t> times;
       for (std::size_t i = 0; i < list.count(); ++i) {
         here.clear();
@@ -319,11 +345,11 @@ void join_always(const FixedFaces& faces, std::span<const FaceTriangulations> li
   }
 }
 
-template FaceNetwork<1> build_network(const FaceTerms<1>&, std::span<const FaceTriangulations>, PlateauNodes*,
+template FaceNetwork<1> build_network(const FaceTerms<1>&, const ListedFaces&, Purpose, PlateauNodes*,
                                       std::size_t, std::span<const PlateauSet>, const Progress&);
-template FaceNetwork<2> build_network(const FaceTerms<2>&, std::span<const FaceTriangulations>, PlateauNodes*,
+template FaceNetwork<2> build_network(const FaceTerms<2>&, const ListedFaces&, Purpose, PlateauNodes*,
                                       std::size_t, std::span<const PlateauSet>, const Progress&);
-template FaceNetwork<5> build_network(const FaceTerms<5>&, std::span<const FaceTriangulations>, PlateauNodes*,
+template FaceNetwork<5> build_network(const FaceTerms<5>&, const ListedFaces&, Purpose, PlateauNodes*,
                                       std::size_t, std::span<const PlateauSet>, const Progress&);
 
 }  // namespace thalweg

@@ -11,6 +11,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace thalweg {
@@ -98,6 +99,7 @@ FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& pr
 
 namespace {
 
+constexpr std::size_t kFrontLimit = 2'000'000;
 constexpr std::uint32_t kNowhere = 0xffffffffU;
 
 template <std::size_t Criteria>
@@ -105,7 +107,7 @@ class FaceLabeller {
  public:
   FaceLabeller(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links, std::size_t face,
                const FaceTriangulations& list)
-      : terms_(terms), list_(list), triangles_(terms.faces.faces.row(face)) {
+      : terms_(terms), list_(list), triangles_(terms.faces.faces.row(face)), face_(face) {
     for (const std::uint32_t t : triangles_) {
       corners_.push_back(face_of(terms.tin, terms.faces, t, terms.scale));
       own_.push_back(terms.of(corners_.back()));
@@ -113,6 +115,22 @@ class FaceLabeller {
     number_sides();
     for (const Group& group : groups_) prepare(group);
     if (!links.empty()) note_links(links);
+  }
+
+  /// The one label that bounds all; `size`: triangles of a triangulation.
+  FaceLabels<Criteria> relax(std::uint32_t size) {
+    FaceLabels<Criteria> labels;
+    labels.triangulation = {0};
+    Cost<Criteria> cost;
+    for (std::size_t level = 0; level < Criteria; ++level) cost.level[level] = least_cost(level, size);
+    labels.unary = {cost};
+    for (const std::uint32_t g : coupled_) {
+      labels.side.push_back(groups_[g].side);
+      labels.at_side.push_back({static_cast<std::uint16_t>(members(groups_[g]).size())});
+    }
+    labels.link = links_;
+    labels.joins.assign(links_.size(), std::vector<std::uint8_t>{1});
+    return labels;
   }
 
   FaceLabels<Criteria> run() {
@@ -192,6 +210,40 @@ class FaceLabeller {
         for (std::size_t level = 0; level < Criteria; ++level) own[level] += more[level];
       }
     }
+  }
+
+  /// Own terms, and of each pair at an edge half its least, rounded down, at either side: a sum of these is
+  /// no more than that of the terms.
+  std::int64_t least_cost(std::size_t level, std::uint32_t size) const {
+    std::vector<std::int64_t> weights;
+    for (const Weight<Criteria>& own : own_) weights.push_back(own[level]);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const Group& here = groups_[g];
+      if (here.opposite == kNowhere || here.opposite < g) continue;
+      const std::size_t count = members(here).size();
+      std::vector<std::int64_t> least(count + here.size_across, std::numeric_limits<std::int64_t>::max());
+      for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = 0; j < here.size_across; ++j) {
+          const std::int64_t weight = pairs_[here.first_pair + i * here.size_across + j][level];
+          least[i] = std::min(least[i], weight);
+          least[count + j] = std::min(least[count + j], weight);
+        }
+      }
+      const auto spread = [&](const Group& group, std::size_t first) {
+        const auto triangles = members(group);
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+          weights[index_of(triangles[i])] += least[first + i] >> 1;
+      };
+      spread(here, 0);
+      spread(groups_[here.opposite], count);
+    }
+    const auto sum = find_least_sum(terms_.faces, face_, weights, kFrontLimit);
+    return sum ? *sum : std::int64_t{size} * *std::min_element(weights.begin(), weights.end());
+  }
+
+  [[nodiscard]] std::size_t index_of(std::uint32_t triangle) const {
+    return static_cast<std::size_t>(std::lower_bound(triangles_.begin(), triangles_.end(), triangle) -
+                                    triangles_.begin());
   }
 
   void note_links(std::span<const PlateauLink> links) {
@@ -278,6 +330,7 @@ class FaceLabeller {
   const FaceTerms<Criteria>& terms_;
   const FaceTriangulations& list_;
   std::span<const std::uint32_t> triangles_;
+  std::size_t face_;
   std::vector<Face> corners_;          ///< by triangle
   std::vector<Weight<Criteria>> own_;  ///< by triangle: its terms, and those with triangles in no face
   std::vector<Group> groups_;          ///< by side
@@ -298,6 +351,19 @@ FaceLabels<Criteria> label_face(const FaceTerms<Criteria>& terms, std::span<cons
                                 std::size_t face, const FaceTriangulations& list) {
   return FaceLabeller<Criteria>(terms, links, face, list).run();
 }
+
+template <std::size_t Criteria>
+FaceLabels<Criteria> relax_face(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links,
+                                std::size_t face, std::uint32_t size) {
+  return FaceLabeller<Criteria>(terms, links, face, {}).relax(size);
+}
+
+template FaceLabels<1> relax_face(const FaceTerms<1>&, std::span<const PlateauLink>, std::size_t,
+                                  std::uint32_t);
+template FaceLabels<2> relax_face(const FaceTerms<2>&, std::span<const PlateauLink>, std::size_t,
+                                  std::uint32_t);
+template FaceLabels<5> relax_face(const FaceTerms<5>&, std::span<const PlateauLink>, std::size_t,
+                                  std::uint32_t);
 
 template FaceLabels<1> label_face(const FaceTerms<1>&, std::span<const PlateauLink>, std::size_t,
                                   const FaceTriangulations&);

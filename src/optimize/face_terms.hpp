@@ -93,6 +93,14 @@ struct FaceLabels {
   std::vector<std::vector<std::uint8_t>> joins;  ///< for each of these, by label: 1 if it does
 };
 
+/// One label in the place of all triangulations of a face: it costs no more than any of them under any labels
+/// of the neighbours. At each side it has a class of its own, after the candidates (LabelNetwork couples it
+/// at the least cost), and it joins what any candidate edge of the face joins. Complexity: pairs of
+/// candidates at the face's edges, and its fronts.
+template <std::size_t Criteria>
+FaceLabels<Criteria> relax_face(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links,
+                                std::size_t face, std::uint32_t size);
+
 /// `links`: by candidate edge, as PlateauNodes::link_of; empty if pits are not counted.
 /// Complexity: triangles of all triangulations.
 template <std::size_t Criteria>

@@ -1,6 +1,8 @@
 // From faces to a network, and back.
 //
-// 1. The triangulations of each face are listed: its labels.
+// 1. The triangulations of each face are listed: its labels. A face with too many has as labels those of a
+//    smaller order; then a second network, in which one label stands for all that the face has, gives the
+//    bound.
 // 2. Each criterion is a level of costs, local minima included (face_network.cpp). The network is solved
 //    (label_solver.cpp).
 // 3. Pits: if the choice leaves more than its costs tell, there are sets of plateaus whose outlets lead to
@@ -59,7 +61,7 @@ class FaceRun {
       if (!criteria_[level].is(Criterion::LocalMinima)) continue;
       pit_level_ = level;
       pits_ = find_plateau_nodes(delaunay, faces);
-      join_always(faces, lists_, *pits_);
+      join_always(faces, listed_, *pits_);
     }
     progress_.advance(1);
   }
@@ -78,7 +80,6 @@ class FaceRun {
   struct Choice {
     std::vector<std::uint32_t> triangles;  ///< candidates, ascending
     Cost<Criteria> value, bound;
-    std::int64_t sure_pits = 0;
     SolverFigures figures;
     std::size_t labels = 0, most_labels = 0;
   };
@@ -87,26 +88,33 @@ class FaceRun {
     std::int64_t limit = 0, bound = 0;
   };
 
+  /// All triangulations of each face; where there are too many, those of the largest order that has not.
   void list(std::size_t most) {
-    lists_.resize(faces_.faces.size());
-    std::vector<std::uint8_t> too_many(lists_.size(), 0);
-    for_each_block(lists_.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+    listed_.lists.resize(faces_.faces.size());
+    listed_.partial.assign(faces_.faces.size(), 0);
+    for_each_block(faces_.faces.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
         auto found = list_triangulations(faces_, f, {.most = most});
-        too_many[f] = found ? 0 : 1;
-        if (found) lists_[f] = std::move(*found);
+        std::uint32_t order = 0;
+        for (const std::uint32_t t : faces_.faces.row(f)) order = std::max(order, faces_.triangles[t].order);
+        while (!found && order > 0) {
+          found = list_triangulations(faces_, f, {.most = most, .max_order = --order});
+          if (found && found->count() == 0) found.reset();
+          listed_.partial[f] = 1;
+        }
+        if (!found) refuse_face(f, most);
+        listed_.lists[f] = std::move(*found);
       }
     });
-    const auto faces = static_cast<std::size_t>(std::count(too_many.begin(), too_many.end(), 1));
-    if (faces == 0) return;
-    const auto first =
-        static_cast<std::size_t>(std::find(too_many.begin(), too_many.end(), 1) - too_many.begin());
-    const Point2 at = delaunay_.point(faces_.triangles[faces_.faces.row(first)[0]].corners[0]);
+  }
+
+  [[noreturn]] void refuse_face(std::size_t f, std::size_t most) const {
+    const Point2 at = delaunay_.point(faces_.triangles[faces_.faces.row(f)[0]].corners[0]);
     throw Error(ErrorCode::SizeLimit,
-                std::to_string(faces) + " of " + std::to_string(lists_.size()) +
-                    " faces between fixed edges have more than " + std::to_string(most) +
-                    " triangulations of that order, the first at (" + std::to_string(at.x) + ", " +
-                    std::to_string(at.y) + "); take a smaller --order");
+                "the face between fixed edges at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
+                    ") has more than " + std::to_string(most) +
+                    " triangulations of that order, and none of a smaller one that could "
+                    "be listed; take a smaller --order");
   }
 
   /// Solves the levels before `count`; those from it on cost nothing.
@@ -119,13 +127,25 @@ class FaceRun {
                    reference_);
     }
     PlateauNodes* const pits = pits_ && pit_level_ < count ? &*pits_ : nullptr;
+    Choice choice = solve_for(terms, Purpose::Choose, pits);
+    const bool partial =
+        std::find(listed_.partial.begin(), listed_.partial.end(), 1) != listed_.partial.end();
+    if (partial) choice.bound = solve_for(terms, Purpose::Bound, pits).bound;
+    return choice;
+  }
+
+  Choice solve_for(const FaceTerms<Criteria>& terms, Purpose purpose, PlateauNodes* pits) {
     std::vector<PlateauSet> closed;
     for (int round = 0;; ++round) {
-      const FaceNetwork<Criteria> network = build_network(terms, lists_, pits, pit_level_, closed, progress_);
+      const FaceNetwork<Criteria> network =
+          build_network(terms, listed_, purpose, pits, pit_level_, closed, progress_);
       const NetworkSolution<Criteria> solution = solve(network.network, limits_, progress_);
-      if (pits == nullptr || round == kRounds || !find_closed(network, solution, closed)) {
-        return choice_of(network, solution);
-      }
+      if (pits != nullptr && round < kRounds && find_closed(network, solution, closed)) continue;
+      Choice choice = choice_of(network, solution);
+      if (pits == nullptr) return choice;
+      choice.value.level[pit_level_] += network.sure_pits;
+      choice.bound.level[pit_level_] += network.sure_pits;
+      return choice;
     }
   }
 
@@ -158,7 +178,7 @@ class FaceRun {
   }
 
   Choice choice_of(const FaceNetwork<Criteria>& network, const NetworkSolution<Criteria>& solution) const {
-    Choice choice{{}, solution.value, solution.bound, network.sure_pits, solution.figures, 0, 0};
+    Choice choice{{}, solution.value, solution.bound, solution.figures, 0, 0};
     for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
       const auto& sides = faces_.sides[t];
       if (std::none_of(sides.begin(), sides.end(),
@@ -166,9 +186,9 @@ class FaceRun {
         choice.triangles.push_back(t);
       }
     }
-    for (std::size_t f = 0; f < lists_.size(); ++f) {
+    for (std::size_t f = 0; f < listed_.lists.size(); ++f) {
       const FaceLabels<Criteria>& face = network.faces[f];
-      for (const std::uint32_t t : lists_[f][face.triangulation[solution.chosen[f]]])
+      for (const std::uint32_t t : listed_.lists[f][face.triangulation[solution.chosen[f]]])
         choice.triangles.push_back(t);
       choice.labels += face.unary.size();
       choice.most_labels = std::max(choice.most_labels, face.unary.size());
@@ -265,8 +285,10 @@ class FaceRun {
 
   [[nodiscard]] FaceOptimizeResult report(const Choice& choice) const {
     FaceOptimizeResult result;
-    result.faces = lists_.size();
-    for (const FaceTriangulations& list : lists_) {
+    result.faces = listed_.lists.size();
+    result.partial_faces =
+        static_cast<std::size_t>(std::count(listed_.partial.begin(), listed_.partial.end(), 1));
+    for (const FaceTriangulations& list : listed_.lists) {
       result.largest_face = std::max<std::size_t>(result.largest_face, list.size);
     }
     result.labels = choice.labels;
@@ -297,7 +319,7 @@ class FaceRun {
     line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
     const WideSteps delaunay = value_on(delaunay_, objective), result = value_on(tin, objective);
     WideSteps bound = result - (choice.value.level[level] - choice.bound.level[level]);
-    if (counts_pits) bound = choice.sure_pits + choice.bound.level[level];
+    if (counts_pits) bound = choice.bound.level[level];
     if (objective.is_extreme()) bound = settled_[level].bound;
     const double per_unit = counts_pits ? 1 : (line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit);
     line.delaunay = static_cast<double>(delaunay) / per_unit;
@@ -318,7 +340,7 @@ class FaceRun {
   const Reference* reference_;
   SolverLimits limits_;
   Progress& progress_;
-  std::vector<FaceTriangulations> lists_;  ///< by face
+  ListedFaces listed_;
   FaceSides sides_;
   std::optional<PlateauNodes> pits_;
   std::size_t pit_level_ = 0;

@@ -33,7 +33,7 @@ class FaceSearch {
     std::sort(on_side_.begin(), on_side_.end());
   }
 
-  [[nodiscard]] std::optional<FrontGraph> find_fronts(std::size_t work_limit) const;
+  [[nodiscard]] std::optional<FrontGraph> find_fronts(const FrontLimits& limits) const;
   [[nodiscard]] FaceOrders sweep(const FrontGraph& graph) const;
 
  private:
@@ -77,7 +77,7 @@ std::optional<Front> FaceSearch::cover(const Front& front, std::uint32_t triangl
   return next;
 }
 
-std::optional<FrontGraph> FaceSearch::find_fronts(std::size_t work_limit) const {
+std::optional<FrontGraph> FaceSearch::find_fronts(const FrontLimits& limits) const {
   std::map<Front, std::uint32_t> number;
   std::vector<const Front*> fronts;
   std::vector<Arc> arcs;
@@ -93,11 +93,12 @@ std::optional<FrontGraph> FaceSearch::find_fronts(std::size_t work_limit) const 
   number_of(first_front());
   // Each front is reached by as many triangles on every path, so those that are found first have fewer.
   for (std::uint32_t f = 0; f < fronts.size(); ++f) {
-    if (work > work_limit) return std::nullopt;
+    if (work > limits.work_limit) return std::nullopt;
     if (fronts[f]->empty()) continue;
     const std::uint32_t lowest = fronts[f]->front();
     auto at = std::lower_bound(on_side_.begin(), on_side_.end(), std::pair(lowest, std::uint32_t{0}));
     for (; at != on_side_.end() && at->first == lowest; ++at) {
+      if (order(at->second) > limits.max_order) continue;
       if (auto next = cover(*fronts[f], at->second)) {
         arcs.push_back({f, number_of(std::move(*next)), at->second});
       }
@@ -131,14 +132,14 @@ FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {
 }  // namespace
 
 std::optional<FrontGraph> find_fronts(const Candidates& candidates, std::size_t face,
-                                      std::size_t work_limit) {
-  return FaceSearch(candidates, face).find_fronts(work_limit);
+                                      const FrontLimits& limits) {
+  return FaceSearch(candidates, face).find_fronts(limits);
 }
 
 std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
                                       std::size_t work_limit) {
   const FaceSearch search(candidates, face);
-  const auto graph = search.find_fronts(work_limit);
+  const auto graph = search.find_fronts({.work_limit = work_limit});
   if (!graph) return std::nullopt;
   return search.sweep(*graph);
 }

@@ -32,8 +32,15 @@ struct FrontGraph {
   std::vector<Arc> arcs;
 };
 
-/// None if the fronts that come up have more than `work_limit` edges together.
-std::optional<FrontGraph> find_fronts(const Candidates& candidates, std::size_t face, std::size_t work_limit);
+/// What of a face is searched.
+struct FrontLimits {
+  std::size_t work_limit = 500'000;       ///< edges of fronts
+  std::uint32_t max_order = 0xffffffffU;  ///< of the triangles
+};
+
+/// None if the fronts that come up have more edges together than the limit.
+std::optional<FrontGraph> find_fronts(const Candidates& candidates, std::size_t face,
+                                      const FrontLimits& limits);
 
 /// None if the fronts that come up have more than `work_limit` edges together: a count, so the answer is the
 /// same everywhere.

@@ -155,9 +155,23 @@ std::vector<VertexId> vertices_inside(const FixedFaces& faces, std::size_t face)
   return inside;
 }
 
+std::optional<std::int64_t> find_least_sum(const FixedFaces& faces, std::size_t face,
+                                           std::span<const std::int64_t> weights, std::size_t work_limit) {
+  const auto graph = detail::find_fronts(faces, face, {.work_limit = work_limit});
+  if (!graph || !graph->empty_front) return std::nullopt;
+  std::vector<std::optional<std::int64_t>> behind(graph->front_count);
+  behind[*graph->empty_front] = 0;
+  for (auto arc = graph->arcs.rbegin(); arc != graph->arcs.rend(); ++arc) {
+    if (!behind[arc->to]) continue;
+    const std::int64_t sum = *behind[arc->to] + weights[arc->triangle];
+    behind[arc->from] = behind[arc->from] ? std::min(*behind[arc->from], sum) : sum;
+  }
+  return behind[0];
+}
+
 std::optional<FaceTriangulations> list_triangulations(const FixedFaces& faces, std::size_t face,
                                                       const TriangulationListOptions& options) {
-  const auto graph = detail::find_fronts(faces, face, options.work_limit);
+  const auto graph = detail::find_fronts(faces, face, {options.work_limit, options.max_order});
   if (!graph) return std::nullopt;
   const std::vector<std::uint64_t> paths = count_paths(*graph);
   if (paths[0] > options.most) return std::nullopt;

@@ -64,6 +64,7 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& f
   choice.figures = {.definition = std::string(definition_name(labelling.definition)),
                     .order = labelling.order,
                     .faces = result.faces,
+                    .partial_faces = result.partial_faces,
                     .largest_face = result.largest_face,
                     .labels = result.labels,
                     .most_labels = result.most_labels,

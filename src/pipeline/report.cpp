@@ -118,6 +118,7 @@ Json higher_order_json(const ReportHigherOrder& higher) {
   return {{"definition", higher.definition},
           {"order", higher.order},
           {"faces", higher.faces},
+          {"partial_faces", higher.partial_faces},
           {"largest_face", higher.largest_face},
           {"labels", higher.labels},
           {"most_labels", higher.most_labels},
@@ -218,6 +219,7 @@ void add_rows(std::string& text, const Report& r) {
     text += fmt::format("Structure at order {}\n", r.higher_order->order);
     row("definition", r.higher_order->definition);
     count("faces", r.higher_order->faces);
+    count_if_any("faces not listed whole", r.higher_order->partial_faces);
     count("largest face, triangles", r.higher_order->largest_face);
     count("labels", r.higher_order->labels);
     count("most labels of a face", r.higher_order->most_labels);

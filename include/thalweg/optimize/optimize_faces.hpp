@@ -14,7 +14,8 @@ namespace thalweg {
 
 struct FaceOptimizeOptions {
   OptimizeOptions common;
-  /// Largest number of triangulations of one face that are listed.
+  /// Largest number of triangulations of one face that are listed. Where there are more, only those of a
+  /// smaller order are chosen from; the bound holds for all.
   std::size_t most_triangulations = 20'000;
 };
 
@@ -22,10 +23,11 @@ struct FaceOptimizeResult {
   std::vector<OrderTriangle> triangles;   ///< the result, sorted
   std::vector<CriterionResult> criteria;  ///< as the options' criteria
   std::size_t faces = 0;
-  std::size_t largest_face = 0;  ///< triangles
-  std::size_t labels = 0;        ///< triangulations of all faces, those that look alike from outside once
-  std::size_t most_labels = 0;   ///< of one face
-  std::size_t new_edges = 0;     ///< that the given TIN does not have
+  std::size_t partial_faces = 0;  ///< those of which not all triangulations could be listed
+  std::size_t largest_face = 0;   ///< triangles
+  std::size_t labels = 0;         ///< triangulations of all faces, those that look alike from outside once
+  std::size_t most_labels = 0;    ///< of one face
+  std::size_t new_edges = 0;      ///< that the given TIN does not have
   std::size_t fixed_by_elimination = 0;  ///< variables: faces, and what counts pits
   std::size_t pieces = 0;
   std::size_t largest_piece = 0;  ///< variables
@@ -39,7 +41,8 @@ struct FaceOptimizeResult {
 ///
 /// Pre: `delaunay` is the constrained Delaunay triangulation on the surface for which the faces were found.
 /// Throws: Error{Usage} as optimize_first_order; {Unsupported} for a criterion whose terms are neither of
-/// triangles nor of edges; {SizeLimit} if a face has more triangulations than the options allow; {Cancelled}.
+/// triangles nor of edges; {SizeLimit} if a face has more triangulations than the options allow and the
+/// Delaunay triangulation is none of them; {Cancelled}.
 /// Complexity: triangulations of all faces; then linear but for pieces that stay wide. Runs on all threads.
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                   const FaceOptimizeOptions& options, Progress& progress);

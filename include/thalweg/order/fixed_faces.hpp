@@ -73,8 +73,9 @@ std::vector<OrderTriangle> keep_on_surface(const Tin& surface, std::vector<Order
 std::vector<VertexId> vertices_inside(const FixedFaces& faces, std::size_t face);
 
 struct TriangulationListOptions {
-  std::size_t most = 4096;             ///< triangulations
-  std::size_t work_limit = 2'000'000;  ///< edges of fronts
+  std::size_t most = 4096;                ///< triangulations
+  std::size_t work_limit = 2'000'000;     ///< edges of fronts
+  std::uint32_t max_order = 0xffffffffU;  ///< of the triangles that are used
 };
 
 /// All triangulations of one face.
@@ -91,5 +92,10 @@ struct FaceTriangulations {
 /// fronts of the face.
 std::optional<FaceTriangulations> list_triangulations(const FixedFaces& faces, std::size_t face,
                                                       const TriangulationListOptions& options);
+
+/// No triangulation of the face has a smaller sum of weights, given for each of its candidates, and one has
+/// just this; none if that takes more than `work_limit` edges of fronts. Complexity: the fronts of the face.
+std::optional<std::int64_t> find_least_sum(const FixedFaces& faces, std::size_t face,
+                                           std::span<const std::int64_t> weights, std::size_t work_limit);
 
 }  // namespace thalweg

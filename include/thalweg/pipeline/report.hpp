@@ -77,11 +77,12 @@ struct ReportFirstOrder {
 struct ReportHigherOrder {
   std::string definition;
   unsigned order = 0;
-  std::size_t faces = 0;         ///< between fixed edges, those with a choice
-  std::size_t largest_face = 0;  ///< triangles
-  std::size_t labels = 0;        ///< triangulations of all faces, those that look alike from outside once
-  std::size_t most_labels = 0;   ///< of one face
-  std::size_t new_edges = 0;     ///< of the result, that the Delaunay triangulation does not have
+  std::size_t faces = 0;          ///< between fixed edges, those with a choice
+  std::size_t partial_faces = 0;  ///< with too many triangulations to list: chosen among a smaller order's
+  std::size_t largest_face = 0;   ///< triangles
+  std::size_t labels = 0;         ///< triangulations of all faces, those that look alike from outside once
+  std::size_t most_labels = 0;    ///< of one face
+  std::size_t new_edges = 0;      ///< of the result, that the Delaunay triangulation does not have
   std::vector<std::size_t> order_histogram;  ///< triangles of order 0, 1, ...
   std::size_t fixed_by_elimination = 0;      ///< faces, and variables that count pits
   std::size_t pieces = 0;
