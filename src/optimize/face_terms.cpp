@@ -111,6 +111,7 @@ class FaceLabeller {
     for (const std::uint32_t t : triangles_) {
       corners_.push_back(face_of(terms.tin, terms.faces, t, terms.scale));
       own_.push_back(terms.of(corners_.back()));
+      if (terms.order_level) own_.back()[*terms.order_level] += terms.faces.triangles[t].order;
     }
     number_sides();
     for (const Group& group : groups_) prepare(group);

@@ -67,6 +67,7 @@ struct FaceTerms {
   const FaceSides& sides;
   Scale scale;
   std::array<TermLevel, Criteria> levels;
+  std::optional<std::size_t> order_level;  ///< where triangles cost their order
 
   [[nodiscard]] Weight<Criteria> of(const Face& triangle) const {
     Weight<Criteria> weight{};

@@ -48,7 +48,7 @@ class FaceRun {
           std::size_t reported, Progress& progress)
       : delaunay_(delaunay),
         faces_(faces),
-        criteria_(options.common.criteria),
+        levels_(levels_of(options)),
         reported_(reported),
         scale_{options.common.horizontal_metres_per_unit, options.common.vertical_metres_per_unit},
         reference_(options.common.reference),
@@ -57,8 +57,8 @@ class FaceRun {
     progress_.start_phase("list triangulations");
     list(options.most_triangulations);
     sides_ = find_sides(delaunay, faces, progress);
-    for (std::size_t level = 0; level < criteria_.size(); ++level) {
-      if (!criteria_[level].is(Criterion::LocalMinima)) continue;
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      if (!counts_pits(level)) continue;
       pit_level_ = level;
       pits_ = find_plateau_nodes(delaunay, faces);
       join_always(faces, listed_, *pits_);
@@ -68,10 +68,10 @@ class FaceRun {
 
   FaceOptimizeResult run() {
     progress_.start_phase("choose triangulations");
-    for (std::size_t level = 0; level < criteria_.size(); ++level) {
-      if (criteria_[level].is_extreme()) settle(level);
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      if (is_extreme(level)) settle(level);
     }
-    const Choice choice = solve_up_to(criteria_.size());
+    const Choice choice = solve_up_to(levels_.size());
     progress_.advance(1);
     return report(choice);
   }
@@ -87,6 +87,13 @@ class FaceRun {
   struct Settled {
     std::int64_t limit = 0, bound = 0;
   };
+
+  [[nodiscard]] bool is_extreme(std::size_t level) const {
+    return levels_[level] && levels_[level]->is_extreme();
+  }
+  [[nodiscard]] bool counts_pits(std::size_t level) const {
+    return levels_[level] && levels_[level]->is(Criterion::LocalMinima);
+  }
 
   /// All triangulations of each face; where there are too many, those of the largest order that has not.
   void list(std::size_t most) {
@@ -119,12 +126,14 @@ class FaceRun {
 
   /// Solves the levels before `count`; those from it on cost nothing.
   Choice solve_up_to(std::size_t count) {
-    FaceTerms<Criteria> terms{delaunay_, faces_, sides_, scale_, {}};
+    FaceTerms<Criteria> terms{delaunay_, faces_, sides_, scale_, {}, std::nullopt};
     for (std::size_t level = 0; level < count; ++level) {
-      const Objective& objective = criteria_[level];
-      terms.levels[level] =
-          level_of(objective, objective.is_extreme() ? std::optional(settled_[level].limit) : std::nullopt,
-                   reference_);
+      if (!levels_[level]) {
+        terms.order_level = level;
+        continue;
+      }
+      const auto limit = is_extreme(level) ? std::optional(settled_[level].limit) : std::nullopt;
+      terms.levels[level] = level_of(*levels_[level], limit, reference_);
     }
     PlateauNodes* const pits = pits_ && pit_level_ < count ? &*pits_ : nullptr;
     Choice choice = solve_for(terms, Purpose::Choose, pits);
@@ -216,6 +225,24 @@ class FaceRun {
     return add_objective(scan, objective, 0, none, progress_);
   }
 
+  /// Sum of the orders of a TIN's triangles.
+  [[nodiscard]] WideSteps order_sum_on(const Tin& tin) const {
+    WideSteps sum = 0;
+    auto at = faces_.triangles.begin();  // both are sorted
+    for (const Triangle& corners : tin.triangles()) {
+      while (at != faces_.triangles.end() && at->corners < corners) ++at;
+      if (at == faces_.triangles.end() || at->corners != corners) {
+        throw Error(
+            ErrorCode::Unsupported,
+            "the constrained Delaunay triangulation itself has a larger order under this definition, so "
+            "no sum of orders can be compared with it; take a definition that knows of lines, such as "
+            "pathcon or sees-opp");
+      }
+      sum += at->order;
+    }
+    return sum;
+  }
+
   /// What terms of candidates may be, ascending, from the worst that no choice changes on.
   [[nodiscard]] std::vector<std::int64_t> values_of(const Objective& objective) const {
     const TermLevel level = level_of(objective, std::nullopt, reference_);
@@ -249,13 +276,22 @@ class FaceRun {
     return values;
   }
 
+  static std::vector<std::optional<Objective>> levels_of(const FaceOptimizeOptions& options) {
+    std::vector<std::optional<Objective>> levels(options.common.criteria.begin(),
+                                                 options.common.criteria.end());
+    if (options.order_sum_after) {
+      levels.insert(levels.begin() + static_cast<std::ptrdiff_t>(*options.order_sum_after), std::nullopt);
+    }
+    return levels;
+  }
+
   static bool same_before(const Cost<Criteria>& a, const Cost<Criteria>& b, std::size_t level) {
     return std::equal(a.level.begin(), a.level.begin() + level, b.level.begin());
   }
 
   /// Finds the least limit of an extreme that leaves the levels before it at their best.
   void settle(std::size_t level) {
-    const Objective& objective = criteria_[level];
+    const Objective& objective = *levels_[level];
     const std::vector<std::int64_t> values = values_of(objective);
     Settled& settled = settled_[level];
     if (values.empty()) return;
@@ -311,30 +347,34 @@ class FaceRun {
 
   /// As in optimize_first_order: the bound of a level holds if all levels before have reached theirs.
   [[nodiscard]] CriterionResult describe(std::size_t level, const Choice& choice, const Tin& tin) const {
-    const Objective& objective = criteria_[level];
-    const bool counts_pits = objective.is(Criterion::LocalMinima);
-    CriterionResult line;
-    line.name = objective.name();
-    line.unit = objective.unit();
-    line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
-    const WideSteps delaunay = value_on(delaunay_, objective), result = value_on(tin, objective);
+    CriterionResult line{.name = "order-sum", .unit = "count", .direction = "min"};
+    if (levels_[level]) {
+      line.name = levels_[level]->name();
+      line.unit = levels_[level]->unit();
+      line.direction = levels_[level]->direction() == Direction::Minimise ? "min" : "max";
+    }
+    const auto value = [&](const Tin& of) {
+      return levels_[level] ? value_on(of, *levels_[level]) : order_sum_on(of);
+    };
+    const WideSteps delaunay = value(delaunay_), result = value(tin);
     WideSteps bound = result - (choice.value.level[level] - choice.bound.level[level]);
-    if (counts_pits) bound = choice.bound.level[level];
-    if (objective.is_extreme()) bound = settled_[level].bound;
-    const double per_unit = counts_pits ? 1 : (line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit);
+    const bool is_count = counts_pits(level) || !levels_[level];
+    if (counts_pits(level)) bound = choice.bound.level[level];
+    if (is_extreme(level)) bound = settled_[level].bound;
+    const double per_unit = is_count ? 1 : (line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit);
     line.delaunay = static_cast<double>(delaunay) / per_unit;
     line.result = static_cast<double>(result) / per_unit;
     line.bound = static_cast<double>(bound) / per_unit;
     line.optimal = result == bound;
     line.method = method_name(choice.figures);
-    if (objective.is_extreme()) line.method = "bisection over limits by " + line.method;
-    if (counts_pits) line.method = "outlets by " + line.method;
+    if (is_extreme(level)) line.method = "bisection over limits by " + line.method;
+    if (counts_pits(level)) line.method = "outlets by " + line.method;
     return line;
   }
 
   const Tin& delaunay_;
   const FixedFaces& faces_;
-  std::span<const Objective> criteria_;
+  std::vector<std::optional<Objective>> levels_;  ///< none: the sum of orders
   std::size_t reported_;
   Scale scale_;
   const Reference* reference_;
@@ -372,9 +412,17 @@ FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                  [](const Objective& o) { return o.is(Criterion::NormalAngleSum); });
   if (open) criteria.emplace_back(Criterion::NormalAngleSum);
   count_levels(criteria);
-  if (criteria.size() <= 1) return FaceRun<1>(delaunay, faces, completed, reported, progress).run();
-  if (criteria.size() == 2) return FaceRun<2>(delaunay, faces, completed, reported, progress).run();
-  return FaceRun<5>(delaunay, faces, completed, reported, progress).run();
+  const std::size_t extra = options.order_sum_after ? 1 : 0, levels = criteria.size() + extra;
+  constexpr std::size_t kMost = 5;
+  if (levels > kMost) {
+    throw Error(ErrorCode::Usage,
+                "there are " + std::to_string(levels) +
+                    " values in order of priority, the sum of orders and what follows a largest "
+                    "value included; at most 5 can be");
+  }
+  if (levels <= 1) return FaceRun<1>(delaunay, faces, completed, reported + extra, progress).run();
+  if (levels == 2) return FaceRun<2>(delaunay, faces, completed, reported + extra, progress).run();
+  return FaceRun<5>(delaunay, faces, completed, reported + extra, progress).run();
 }
 
 }  // namespace thalweg

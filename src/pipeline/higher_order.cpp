@@ -40,7 +40,11 @@ FixedFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const 
 HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& faces,
                                         const OptimizeOptions& options, const LabellingConfig& labelling,
                                         Progress& progress) {
-  FaceOptimizeResult result = optimize_faces(delaunay, faces, {.common = options}, progress);
+  FaceOptimizeResult result = optimize_faces(
+      delaunay, faces,
+      {.common = options,
+       .order_sum_after = labelling.least_orders ? std::optional<std::size_t>(1) : std::nullopt},
+      progress);
   HigherOrderChoice choice;
   choice.criteria = std::move(result.criteria);
   std::vector<Triangle> triangles;

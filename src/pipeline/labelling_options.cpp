@@ -12,7 +12,9 @@ namespace thalweg::cli {
 
 void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
   command.add_option("--order", arguments.order,
-                     "largest constrained order of a triangle; 0 is the constrained Delaunay triangulation");
+                     "largest constrained order of a triangle; 0 is the constrained Delaunay triangulation; "
+                     "auto: no more than fewest pits take");
+  command.add_option("--order-max", arguments.order_max, "largest order with --order auto (default: 3)");
   command.add_option("--definition", arguments.definition, "which constrained order");
   command.add_option("--optimize", arguments.optimize,
                      "criteria in order of priority, separated by commas, or none");
@@ -25,12 +27,14 @@ namespace {
 
 /// Orders are written as 16-bit numbers; faces become too large long before.
 constexpr unsigned kLargestOrder = 1000;
+/// The largest at which all triangulations of every face can be listed, on random points.
+constexpr unsigned kDefaultLargest = 3;
 
-unsigned parse_order(const std::string& text) {
+unsigned parse_order(const std::string& option, const std::string& text) {
   unsigned order = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), order);
   if (error == std::errc() && rest == text.data() + text.size() && order <= kLargestOrder) return order;
-  throw Error(ErrorCode::Usage, "--order takes a whole number from 0 to " + std::to_string(kLargestOrder) +
+  throw Error(ErrorCode::Usage, option + " takes a whole number from 0 to " + std::to_string(kLargestOrder) +
                                     ", not '" + text + "'");
 }
 
@@ -53,7 +57,18 @@ std::vector<Objective> parse_criteria(const std::string& text) {
 
 LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   LabellingConfig config;
-  config.order = parse_order(arguments.order);
+  config.least_orders = arguments.order == "auto";
+  if (config.least_orders) {
+    config.order =
+        arguments.order_max.empty() ? kDefaultLargest : parse_order("--order-max", arguments.order_max);
+    if (config.order < 2) throw Error(ErrorCode::Usage, "--order auto needs an --order-max of 2 or more");
+  } else {
+    config.order = parse_order("--order", arguments.order);
+    if (!arguments.order_max.empty()) {
+      throw Error(ErrorCode::Usage,
+                  "--order-max goes with --order auto, not with --order " + arguments.order);
+    }
+  }
   config.definition = parse_definition(arguments.definition);
   const bool overlapping =
       config.definition == OrderDefinition::Sees3vtx || config.definition == OrderDefinition::EmptyQuad;
@@ -64,6 +79,9 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
                     "available; take sees-opp or a stronger definition, or another --order");
   }
   config.criteria = parse_criteria(arguments.optimize);
+  if (config.least_orders && (config.criteria.empty() || !config.criteria[0].is(Criterion::LocalMinima))) {
+    throw Error(ErrorCode::Usage, "--order auto: the first criterion of --optimize must be local-minima");
+  }
   if (arguments.effort > 0) config.effort = arguments.effort;
   const auto needs_reference = [](const Objective& objective) { return objective.needs_reference(); };
   const bool needed = std::any_of(config.criteria.begin(), config.criteria.end(), needs_reference);

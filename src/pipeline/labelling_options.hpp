@@ -13,6 +13,7 @@ namespace thalweg::cli {
 /// Values as typed, before they are turned into a LabellingConfig.
 struct LabellingArguments {
   std::string order = "1";
+  std::string order_max;
   std::string definition = "sees-opp";
   std::string optimize = "local-minima,normal-angle-sum";
   std::uint64_t effort = 0;

@@ -8,12 +8,17 @@
 #include <thalweg/order/fixed_faces.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace thalweg {
 
 struct FaceOptimizeOptions {
   OptimizeOptions common;
+  /// If given, the sum of the orders of all triangles is minimised after that many of the criteria, and
+  /// before the others: shape is given up only where the criteria before it gain. Its line in the result is
+  /// `order-sum`.
+  std::optional<std::size_t> order_sum_after;
   /// Largest number of triangulations of one face that are listed. Where there are more, only those of a
   /// smaller order are chosen from; the bound holds for all.
   std::size_t most_triangulations = 20'000;
@@ -21,7 +26,7 @@ struct FaceOptimizeOptions {
 
 struct FaceOptimizeResult {
   std::vector<OrderTriangle> triangles;   ///< the result, sorted
-  std::vector<CriterionResult> criteria;  ///< as the options' criteria
+  std::vector<CriterionResult> criteria;  ///< as the options' criteria, and the sum of orders in its place
   std::size_t faces = 0;
   std::size_t partial_faces = 0;  ///< those of which not all triangulations could be listed
   std::size_t largest_face = 0;   ///< triangles

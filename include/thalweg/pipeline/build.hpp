@@ -34,6 +34,8 @@ struct OutputConfig {
 /// How the triangulation is chosen.
 struct LabellingConfig {
   unsigned order = 1;  ///< largest order of a triangle
+  /// After fewest pits the least sum of triangle orders, before the other criteria. Pre: local minima first.
+  bool least_orders = false;
   OrderDefinition definition = OrderDefinition::SeesOpp;
   std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own

@@ -47,8 +47,9 @@ bool better(const std::vector<test::Steps>& a, const std::vector<test::Steps>& b
 }
 
 struct Terrain {
-  Tin tin;                          ///< the Delaunay triangulation, with heights
-  std::vector<Tin> triangulations;  ///< all of the order
+  Tin tin;                              ///< the Delaunay triangulation, with heights
+  std::vector<Tin> triangulations;      ///< all of the order
+  std::vector<test::Steps> order_sums;  ///< of each
   FixedFaces faces;
 };
 
@@ -65,11 +66,16 @@ std::optional<Terrain> terrain_of(const Oracle& oracle, const oracle::Enumeratio
   if (!faces) return std::nullopt;
   Terrain terrain{with_heights(ground, {ground.triangles().begin(), ground.triangles().end()}, heights),
                   {},
+                  {},
                   std::move(*faces)};
   for (const std::size_t i : all.of_order(static_cast<oracle::Definition>(definition), k)) {
     std::vector<Triangle> triangles;
-    for (const int t : all.members[i])
+    test::Steps order_sum = 0;
+    for (const int t : all.members[i]) {
       triangles.push_back(test::triangle(all.triangles[static_cast<std::size_t>(t)]));
+      order_sum += all.orders[static_cast<std::size_t>(t)][static_cast<std::size_t>(definition)];
+    }
+    terrain.order_sums.push_back(order_sum);
     terrain.triangulations.push_back(with_heights(ground, std::move(triangles), heights));
   }
   return terrain;
@@ -108,6 +114,33 @@ void check(const Terrain& terrain, const std::vector<Criterion>& criteria) {
   ASSERT_TRUE(is_one_of_all);
   const auto delaunay = value_of(terrain.tin, criteria);
   for (std::size_t i = 0; i < criteria.size(); ++i) expect_line(result.criteria[i], delaunay[i], got[i]);
+}
+
+/// Fewest pits, then the least sum of orders, then the least sum of angles.
+void check_least_orders(const Terrain& terrain) {
+  Progress progress;
+  const FaceOptimizeResult result =
+      optimize_faces(terrain.tin, terrain.faces,
+                     {.common = {.criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum},
+                                 .horizontal_metres_per_unit = kHorizontal,
+                                 .vertical_metres_per_unit = kVertical},
+                      .order_sum_after = 1},
+                     progress);
+  const Tin tin = tin_of(terrain, result);
+  test::Steps order_sum = 0;
+  for (const OrderTriangle& t : result.triangles) order_sum += t.order;
+  const auto with_orders = [&](const Tin& of, test::Steps sum) {
+    auto value = value_of(of, {Criterion::LocalMinima, Criterion::NormalAngleSum});
+    value.insert(value.begin() + 1, sum << 32U);
+    return value;
+  };
+  const auto got = with_orders(tin, order_sum);
+  for (std::size_t i = 0; i < terrain.triangulations.size(); ++i) {
+    ASSERT_FALSE(better(with_orders(terrain.triangulations[i], terrain.order_sums[i]), got));
+  }
+  ASSERT_EQ(result.criteria.size(), 3U);
+  EXPECT_EQ(result.criteria[1].name, "order-sum");
+  expect_line(result.criteria[1], 0, got[1]);
 }
 
 /// With so few labels a face that not all its triangulations are among them.
@@ -163,6 +196,7 @@ TEST(OptimizeFaces, IsTheBestOfAll) {
       if (!terrain) continue;
       for (const auto& criteria : kPriorities) {
         if (definition != OrderDefinition::Std) {
+          ASSERT_NO_FATAL_FAILURE(check_least_orders(*terrain)) << definition_name(definition) << " " << k;
           ASSERT_NO_FATAL_FAILURE(check_partial(*terrain, criteria, partial_faces))
               << definition_name(definition) << " " << k;
         }
