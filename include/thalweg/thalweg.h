@@ -78,8 +78,8 @@ thalweg_status thalweg_job_add_source(thalweg_job* job, const char* source);
 /* Points as x, y, z each; x is east or longitude. They come before those of files: vertex i of the TIN is the
  * i-th distinct point that is used. Without the option s-crs they are in the CRS of the job. */
 thalweg_status thalweg_job_add_points(thalweg_job* job, const double* xyz, size_t count);
-/* One line (of a boundary or hole: one closed ring) of `count` vertices with 2 (soft) or 3 (hard) coordinates
- * each. `kind` is one of the kinds above, but not THALWEG_LAKE. */
+/* One line (of a boundary, hole or lake: one closed ring) of `count` vertices with 2 (soft) or 3 (hard)
+ * coordinates each. `kind` is one of the kinds above. */
 thalweg_status thalweg_job_add_line(thalweg_job* job, int kind, const double* coordinates, size_t count,
                                     int dimension);
 /* An option of `thalweg build` without its dashes: ("max-error", "0.5"). A repeated one adds a value where

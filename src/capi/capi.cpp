@@ -200,7 +200,7 @@ thalweg_status thalweg_job_add_line(thalweg_job* job, int kind, const double* co
                   "a line has 2 or 3 coordinates a vertex, not " + std::to_string(dimension));
     }
     if (kind != THALWEG_BREAKLINE && kind != THALWEG_RIDGE && kind != THALWEG_VALLEY &&
-        kind != THALWEG_BOUNDARY && kind != THALWEG_HOLE) {
+        kind != THALWEG_BOUNDARY && kind != THALWEG_HOLE && kind != THALWEG_LAKE) {
       throw Error(ErrorCode::Usage, "there is no kind of line " + std::to_string(kind));
     }
     thalweg::MemoryLine line{.kind = static_cast<thalweg::EdgeKind>(kind)};

@@ -8,12 +8,12 @@
 // 3. Triangulate, under ids along a curve if that was asked for: what is close in the plane is then close in
 //    memory, for all that follows. In polygon mode flood the triangles for those inside, and keep these and
 //    their vertices.
-// That
-//    equals dropping all that is outside first, because no empty circle has to heed what is behind a
+//    That equals dropping all that is outside first, because no empty circle has to heed what is behind a
 //    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
 //    them.
 #include "drawing.hpp"
 #include "heights.hpp"
+#include "lakes.hpp"
 #include "merge.hpp"
 #include "provenance.hpp"
 #include "region.hpp"
@@ -28,7 +28,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -76,7 +78,8 @@ std::optional<double> height_at_rim(const Tin& tin, Point2 p, double reach) {
 void drape(const Survey& survey, const MergedVertices& merged, const GroundOptions& options,
            const Drawing& drawing, Heights& heights, Progress& progress) {
   if (std::find(heights.known.begin(), heights.known.end(), false) == heights.known.end()) return;
-  const auto hard = lines_to_draw(survey, [](const SurveyLine& line) { return !line.z.empty(); });
+  const auto hard = lines_to_draw(
+      survey, [](const SurveyLine& line) { return !line.z.empty() && !has(line.kind, EdgeKind::Lake); });
   Drawing base = draw(survey, merged, hard, progress);
   if (base.vertices.xy.size() < 3) {
     throw Error(
@@ -212,6 +215,34 @@ Tin keep_region(const Survey& survey, const Drawing& drawing, const Tin& hull, P
   return {std::move(plan.xy), std::move(plan.z), std::move(triangles), constraints};
 }
 
+// Levels the lakes; conflicts stay in order of vertices.
+void level(const Survey& survey, const Drawing& drawing, std::span<const std::uint32_t> now_of,
+           Heights& heights, Ground& ground, const Progress& progress) {
+  LevelledLakes levelled = level_lakes(survey, drawing, ground.tin, now_of, progress);
+  ground.lakes = levelled.lakes;
+  ground.points_in_lakes = levelled.points;
+  for (std::size_t i = 0; i < heights.conflicts.size(); ++i) {
+    const std::uint32_t v = now_of[heights.conflict_vertices[i]];
+    if (v != VertexId::kInvalid) heights.conflicts[i].z_used = levelled.z[v];
+  }
+  heights.conflict_vertices.insert(heights.conflict_vertices.end(), levelled.conflict_vertices.begin(),
+                                   levelled.conflict_vertices.end());
+  std::move(levelled.conflicts.begin(), levelled.conflicts.end(), std::back_inserter(heights.conflicts));
+  std::vector<std::size_t> order(heights.conflicts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return heights.conflict_vertices[i]; });
+  Heights sorted;
+  for (const std::size_t i : order) {
+    sorted.conflicts.push_back(std::move(heights.conflicts[i]));
+    sorted.conflict_vertices.push_back(heights.conflict_vertices[i]);
+  }
+  heights.conflicts = std::move(sorted.conflicts);
+  heights.conflict_vertices = std::move(sorted.conflict_vertices);
+  const Tin& tin = ground.tin;
+  ground.tin = Tin({tin.points().begin(), tin.points().end()}, std::move(levelled.z),
+                   {tin.triangles().begin(), tin.triangles().end()}, tin.constraint_edges());
+}
+
 }  // namespace
 
 Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress) {
@@ -242,6 +273,7 @@ Ground build_ground(const Survey& survey, const GroundOptions& options, Progress
     edge.b = VertexId{plan.now_of[edge.b.index()]};
   }
   ground.tin = triangulate(std::move(plan.xy), std::move(plan.z), edges, progress);
+  if (has_lakes(survey)) level(survey, drawing, plan.now_of, heights, ground, progress);
   if (ground.mode == GroundMode::Polygon) {
     plan.xy.assign(ground.tin.points().begin(), ground.tin.points().end());
     plan.z.assign(ground.tin.heights().begin(), ground.tin.heights().end());

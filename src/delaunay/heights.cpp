@@ -1,7 +1,8 @@
 // Which height a vertex gets.
 //
 // 1. Points: the height of the only one at the vertex; where several share it, the duplicate rule.
-// 2. Hard lines: at a vertex of theirs the height given there, on an edge the height between its ends. If all
+// 2. Hard lines, but rings of lakes: at a vertex of theirs the height given there, on an edge the height
+// between its ends. If all
 //    agree, that is the height (a given one rather than one between); else the crossing rule says.
 // 3. Heights between ends are rounded, and belong to a place that noding may have moved by up to a pixel. Two
 //    heights agree if they differ by no more than that can explain, or, both given, not at all.
@@ -170,7 +171,7 @@ class Resolver {
     if (passages.empty()) return;
     if (options_.crossing == CrossingRule::Error) refuse_contacts(v, passages);
     const std::vector<Claim> claims = claims_of(v, passages);
-    if (claims.empty()) return;
+    if (claims.empty()) return take_lakes(v, passages);
     const bool is_point = v < drawing_.vertices.point_count;
     const Claim point{.z = heights_.z[v], .slack = 0, .passage = {}};
     const Claim& first = claims.front();
@@ -185,6 +186,14 @@ class Resolver {
     if (is_point && !all_agree) {
       report(Conflict::Kind::PointOnLine, v, point.z, first.z, describe_point(survey_, first_point_[v]),
              describe(first));
+    }
+  }
+
+  // A vertex that nothing else gives a height has that of a lake's ring until lakes are levelled.
+  void take_lakes(std::uint32_t v, std::span<const Passage> passages) {
+    for (const Passage& passage : passages) {
+      const SurveyLine& line = survey_.lines[passage.line];
+      if (!heights_.known[v] && !line.z.empty()) set(v, claim_of(v, passage, line).z);
     }
   }
 
@@ -214,7 +223,7 @@ class Resolver {
     std::vector<Claim> claims;
     for (const Passage& passage : passages) {
       const SurveyLine& line = survey_.lines[passage.line];
-      if (line.z.empty()) continue;
+      if (line.z.empty() || has(line.kind, EdgeKind::Lake)) continue;
       const Claim claim = claim_of(v, passage, line);
       const bool said = std::any_of(claims.begin(), claims.end(), [&](const Claim& other) {
         return other.passage.line == passage.line && other.z == claim.z;
@@ -263,9 +272,9 @@ class Resolver {
     }
   }
 
-  // A boundary or hole may cut lines; neighbouring pieces of one line may come back to their common vertex.
+  // The ring of an area may cut lines; neighbouring pieces of one line may come back to their common vertex.
   [[nodiscard]] bool is_harmless(const Passage& one, const Passage& other) const {
-    constexpr EdgeKind kArea = EdgeKind::Boundary | EdgeKind::Hole;
+    constexpr EdgeKind kArea = EdgeKind::Boundary | EdgeKind::Hole | EdgeKind::Lake;
     const EdgeKind kinds = survey_.lines[one.line].kind | survey_.lines[other.line].kind;
     if (has(kinds, kArea)) return true;
     const std::uint32_t apart = std::max(one.at, other.at) - std::min(one.at, other.at);

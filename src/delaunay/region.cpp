@@ -30,6 +30,10 @@ bool is_ring(const SurveyLine& line) {
   return has(line.kind, EdgeKind::Boundary | EdgeKind::Hole);
 }
 
+bool is_area(const SurveyLine& line) {
+  return is_ring(line) || has(line.kind, EdgeKind::Lake);
+}
+
 // splitmix64 (Steele, Lea, Flood, 2014): a bijection, so numbers below 2^63 have distinct patterns.
 std::uint64_t pattern_of(std::uint64_t area) {
   std::uint64_t value = (area + 1) * 0x9e3779b97f4a7c15U;
@@ -56,11 +60,11 @@ bool has_region(const Survey& survey) {
 void check_rings(const Survey& survey, const MergedVertices& merged) {
   for (std::size_t l = 0; l < survey.lines.size(); ++l) {
     const SurveyLine& line = survey.lines[l];
-    if (!is_ring(line) || line.xy.empty()) continue;
+    if (!is_area(line) || line.xy.empty()) continue;
     if (merged.of_line(l, 0) == merged.of_line(l, line.xy.size() - 1)) continue;
     throw Error(ErrorCode::WrongGeometry,
                 describe_line(survey, l) +
-                    " is used as a boundary or hole, but is not closed: its first vertex " +
+                    " is used as a boundary, hole or lake, but is not closed: its first vertex " +
                     describe_place(survey, line.xy.front()) + " and its last " +
                     describe_place(survey, line.xy.back()) +
                     " differ; give polygons or closed lines, or close it with --snap DISTANCE");

@@ -22,7 +22,7 @@ struct RingEdge {
 /// True if the survey has a line of kind Boundary or Hole.
 bool has_region(const Survey& survey);
 
-/// Throws: Error{WrongGeometry} naming the first boundary or hole ring that is not closed.
+/// Throws: Error{WrongGeometry} naming the first ring of a boundary, hole or lake that is not closed.
 void check_rings(const Survey& survey, const MergedVertices& merged);
 
 /// The pieces of all rings, between vertices of the drawing; what is drawn twice may cancel out.

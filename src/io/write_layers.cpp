@@ -49,6 +49,8 @@ const char* conflict_word(Conflict::Kind kind) {
       return "line vertex";
     case Conflict::Kind::Crossing:
       return "crossing";
+    case Conflict::Kind::Lake:
+      return "lake";
   }
   return "unknown";
 }

@@ -92,6 +92,8 @@ void describe_input(const ReadResult& read, const Ground& ground, Report& report
   report.input.duplicates_merged = ground.duplicates_merged;
   report.input.outside_boundary = ground.outside_boundary;
   report.input.crossings = ground.crossings;
+  report.input.lakes = ground.lakes;
+  report.input.points_in_lakes = ground.points_in_lakes;
   report.input.snapping_pixel = ground.pixel;
   report.input.points_used = static_cast<std::size_t>(
       std::count_if(ground.origins.begin(), ground.origins.end(),

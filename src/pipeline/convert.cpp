@@ -4,8 +4,9 @@
 //    mean nothing.
 // 2. Mesh and layers: written as they are. Orders follow their triangles, which a Tin sorts.
 // 3. Raster: strips of rows; each cell centre goes to the plane and is sampled there.
-// 4. Contours: traced in the plane, written in the TIN's coordinates.
+// 4. Contours: traced in the plane, written in the TIN's coordinates. Profiles likewise.
 #include "pipeline/loaded_tin.hpp"
+#include "pipeline/profile.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/read_tin.hpp>
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -189,6 +191,18 @@ void write_contours(const Job& job, const ContourConfig& contours, ConvertResult
   write_level_lines(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
 }
 
+void write_profile(const Job& job, const ProfileConfig& config, ConvertResult& result) {
+  const ProfileTable table = profile_table(job.source.loaded, config, job.progress);
+  result.lines = table.lines;
+  result.profile_rows = table.rows;
+  std::ofstream file(job.outputs.add(job.config.output, job.overwrite()), std::ios::binary);
+  file << table.csv;
+  file.close();
+  if (!file) {
+    throw Error(ErrorCode::WriteFailed, job.config.output + " could not be written whole; is the disk full?");
+  }
+}
+
 bool is_mesh_format(const ConvertConfig& config) {
   try {
     check_write_options(config.output, {config.format, {}});
@@ -199,6 +213,10 @@ bool is_mesh_format(const ConvertConfig& config) {
 }
 
 ConvertResult::Kind kind_of(const ConvertConfig& config) {
+  if (config.profile) {
+    if (config.output.ends_with(".csv")) return ConvertResult::Kind::Profile;
+    throw Error(ErrorCode::Usage, config.output + ": a profile is a table; give a name that ends in .csv");
+  }
   if (config.contours) return ConvertResult::Kind::Contours;
   if (is_mesh_format(config)) {
     if (config.raster) {
@@ -236,6 +254,9 @@ ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
     case ConvertResult::Kind::Contours:
       write_contours(job, *config.contours, result);
       break;
+    case ConvertResult::Kind::Profile:
+      write_profile(job, *config.profile, result);
+      break;
   }
   outputs.commit();
   progress.advance(1);
@@ -250,6 +271,9 @@ std::string to_json(const ConvertResult& result) {
                       {"cells_without_data", result.cells_without_data}};
   }
   if (result.kind == ConvertResult::Kind::Contours) json["contour_lines"] = result.lines;
+  if (result.kind == ConvertResult::Kind::Profile) {
+    json["profile"] = {{"lines", result.lines}, {"rows", result.profile_rows}};
+  }
   return json.dump(2) + "\n";
 }
 
@@ -261,6 +285,8 @@ std::string to_text(const ConvertResult& result) {
   }
   if (result.kind == ConvertResult::Kind::Contours)
     return fmt::format("{}: {} contour lines\n", tin, result.lines);
+  if (result.kind == ConvertResult::Kind::Profile)
+    return fmt::format("{}: profiles of {} lines, {} rows\n", tin, result.lines, result.profile_rows);
   return tin + "\n";
 }
 

@@ -9,6 +9,7 @@
 #include <thalweg/pipeline/inspect.hpp>
 #include <thalweg/terrain/pit_changes.hpp>
 #include <thalweg/terrain/pits.hpp>
+#include <thalweg/terrain/volume.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,7 +42,48 @@ LoadedTin load_tin(const std::string& path, Progress& progress) {
   return loaded;
 }
 
-TinInfo inspect_tin(const std::string& path, Progress& progress) {
+namespace {
+
+VolumeInfo in_metres(std::string reference, const Volumes& v, const MetricScale& scale) {
+  const double area = scale.horizontal_metres_per_unit * scale.horizontal_metres_per_unit;
+  const double volume = area * scale.vertical_metres_per_unit;
+  return {std::move(reference), v.above * volume,    v.below * volume,
+          v.area_above * area,  v.area_below * area, v.area * area};
+}
+
+// The other TIN in the plane of the first.
+Tin load_into(const LoadedTin& loaded, const std::string& path, Progress& progress) {
+  LoadedTin other = load_tin(path, progress);
+  if (other.crs.name != loaded.crs.name) {
+    const auto name = [](const CrsInfo& crs) { return crs.known ? crs.name : "unknown"; };
+    throw Error(ErrorCode::BadCrs, path + " is in CRS " + name(other.crs) + ", the first TIN in " +
+                                       name(loaded.crs) + "; build both in one CRS (--t-crs, --a-crs)");
+  }
+  if (!loaded.plane.projected()) return std::move(other.tin);
+  return {loaded.plane.to_plane(other.written, progress),
+          {other.tin.heights().begin(), other.tin.heights().end()},
+          {other.tin.triangles().begin(), other.tin.triangles().end()},
+          {}};
+}
+
+std::vector<VolumeInfo> measure_volumes(const LoadedTin& loaded, const VolumeConfig& config,
+                                        Progress& progress) {
+  std::vector<VolumeInfo> volumes;
+  const MetricScale scale = loaded.plane.scale();
+  if (config.above) {
+    volumes.push_back(in_metres(fmt::format("height {}", *config.above),
+                                volume_above(loaded.tin, *config.above, progress), scale));
+  }
+  if (!config.between.empty()) {
+    const Tin base = load_into(loaded, config.between, progress);
+    volumes.push_back(in_metres(config.between, volume_between(loaded.tin, base, progress), scale));
+  }
+  return volumes;
+}
+
+}  // namespace
+
+TinInfo inspect_tin(const std::string& path, Progress& progress, const VolumeConfig& volumes) {
   progress.start_phase("read");
   const LoadedTin loaded = load_tin(path, progress);
   progress.start_phase("measure");
@@ -52,6 +94,7 @@ TinInfo inspect_tin(const std::string& path, Progress& progress) {
   info.tin = describe_tin(loaded.tin, loaded.plane, loaded.written);
   info.statistics = measure(loaded.tin, loaded.plane.scale());
   info.pits = describe_pits(find_pits(loaded.tin));
+  info.volumes = measure_volumes(loaded, volumes, progress);
   info.digest = digest_of(loaded.tin, loaded.written);
   if (loaded.plane.projected()) {
     info.violations = validate(loaded.tin, loaded.plane.to_lonlat(loaded.written));
@@ -66,6 +109,16 @@ std::string to_json(const TinInfo& info) {
   using Json = nlohmann::ordered_json;
   Json violations = Json::array();
   for (const Violation& v : info.violations) violations.push_back({{"code", v.code}, {"what", v.what}});
+  Json volumes = Json::array();
+  for (const VolumeInfo& v : info.volumes) {
+    volumes.push_back({{"reference", v.reference},
+                       {"above_m3", v.above_m3},
+                       {"below_m3", v.below_m3},
+                       {"net_m3", v.above_m3 - v.below_m3},
+                       {"area_above_m2", v.area_above_m2},
+                       {"area_below_m2", v.area_below_m2},
+                       {"area_m2", v.area_m2}});
+  }
   const Json json = {
       {"path", info.path},
       {"digest", info.digest},
@@ -86,6 +139,7 @@ std::string to_json(const TinInfo& info) {
       {"flat_triangles", info.tin.flat_triangles},
       {"pits",
        {{"interior", info.pits.interior}, {"boundary", info.pits.boundary}, {"lake", info.pits.lake}}},
+      {"volumes", volumes},
       {"valid", info.violations.empty()},
       {"violations", violations}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -118,6 +172,11 @@ std::string to_text(const TinInfo& info) {
   fmt::format_to(out, "{:<26}{}\n", "smallest angle, 10 deg bins", bins(info.tin.angle_histogram));
   fmt::format_to(out, "{:<26}{}\n", "slope, 10 degree bins", bins(info.statistics.slope_histogram));
   fmt::format_to(out, "{:<26}{}\n", "aspect N..NW, level", bins(info.statistics.aspect_histogram));
+  for (const VolumeInfo& v : info.volumes) {
+    row("volume to " + v.reference,
+        fmt::format("{:.3f} m3 above (on {:.1f} m2), {:.3f} m3 below (on {:.1f} m2)", v.above_m3,
+                    v.area_above_m2, v.below_m3, v.area_below_m2));
+  }
   row("digest", info.digest);
   row("valid", info.violations.empty() ? "yes" : fmt::format("NO, {} violations", info.violations.size()));
   constexpr std::size_t kShown = 20;

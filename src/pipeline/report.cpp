@@ -24,6 +24,8 @@ std::string_view conflict_name(Conflict::Kind kind) {
       return "line-vertex";
     case Conflict::Kind::Crossing:
       return "crossing";
+    case Conflict::Kind::Lake:
+      return "lake";
   }
   return "crossing";
 }
@@ -53,6 +55,8 @@ Json input_json(const ReportInput& input) {
           {"breaklines_read", input.breaklines_read},
           {"breakline_vertices", input.breakline_vertices},
           {"crossings", input.crossings},
+          {"lakes", input.lakes},
+          {"points_in_lakes", input.points_in_lakes},
           {"vertices_inserted_on_lines", input.vertices_inserted_on_lines},
           {"snapping_pixel", input.snapping_pixel}};
 }
@@ -194,6 +198,8 @@ void add_rows(std::string& text, const Report& r) {
   count_if_any("lines read", r.input.breaklines_read);
   count_if_any("line vertices", r.input.breakline_vertices);
   count_if_any("crossings", r.input.crossings);
+  count_if_any("lakes", r.input.lakes);
+  count_if_any("points that lakes level", r.input.points_in_lakes);
   count_if_any("height conflicts", r.conflicts.size());
   text += "TIN\n";
   count("vertices", r.tin.vertices);
@@ -259,6 +265,10 @@ std::string to_text(const Report& r) {
   fmt::format_to(out, "  {:<26}{:>16}{:>16}\n", "pits", r.pits_delaunay.interior, r.pits_result.interior);
   fmt::format_to(out, "  {:<26}{:>16}{:>16}\n", "pits on the boundary", r.pits_delaunay.boundary,
                  r.pits_result.boundary);
+  if (r.pits_delaunay.lake > 0) {
+    fmt::format_to(out, "  {:<26}{:>16}{:>16}\n", "lakes without outlet", r.pits_delaunay.lake,
+                   r.pits_result.lake);
+  }
   const PhaseSeconds& s = r.timings_s;
   text += "Seconds\n";
   fmt::format_to(out,

@@ -47,6 +47,10 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
   lines("--breaklines", a.breaklines, "other lines that the TIN keeps; repeatable");
   lines("--boundary", a.boundary, "areas to keep; points outside are dropped; repeatable");
   lines("--holes", a.holes, "areas to cut out; repeatable");
+  lines(
+      "--lakes", a.lakes,
+      "areas that are flat, at the z of the geometry or --line-z-field, else the lowest height of the shore; "
+      "repeatable");
   command.add_option("--z-field", read.z_field, "attribute or column with the height of points");
   command.add_option("--line-z-field", read.line_z_field, "attribute with the height of lines");
   command.add_option("--kind-field", read.kind_field, "attribute that says ridge or valley");
@@ -92,6 +96,7 @@ void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vec
   add_lines(arguments.breaklines, EdgeKind::Breakline, lines);
   add_lines(arguments.boundary, EdgeKind::Boundary, lines);
   add_lines(arguments.holes, EdgeKind::Hole, lines);
+  add_lines(arguments.lakes, EdgeKind::Lake, lines);
   if (!arguments.bbox.empty()) read.bbox = parse_box("--bbox", arguments.bbox);
 }
 

@@ -14,7 +14,7 @@ namespace thalweg::cli {
 
 /// Names of files as typed.
 struct SourceArguments {
-  std::vector<std::string> ridges, valleys, breaklines, boundary, holes;
+  std::vector<std::string> ridges, valleys, breaklines, boundary, holes, lakes;
   std::string bbox;
 };
 

@@ -36,8 +36,9 @@ verify::SourceLine line_in_plane(const SurveyLine& source, const Survey& survey,
   const SourceLayer& layer = survey.sources[source.source];
   verify::SourceLine line;
   line.kind = source.kind;
-  line.name = layer.file + (layer.layer.empty() ? "" : "|" + layer.layer) + " feature " +
-              std::to_string(source.feature) + " part " + std::to_string(source.part);
+  line.feature = layer.file + (layer.layer.empty() ? "" : "|" + layer.layer) + " feature " +
+                 std::to_string(source.feature);
+  line.name = line.feature + " part " + std::to_string(source.part);
   if (!plane.projected()) {
     line.xy = source.xy;
     line.z = source.z;

@@ -4,6 +4,7 @@
 
 #include <thalweg/mesh/tin.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,6 +18,32 @@ class TriangleGrid {
   explicit TriangleGrid(const Tin& tin);
   /// A triangle that holds p, the first by id if p lies on an edge; none outside. Exact.
   [[nodiscard]] std::optional<TriangleId> find(Point2 p) const;
+
+  /// Calls visitor(t) once for each triangle whose box meets that of a and b, both closed.
+  template <class Visitor>
+  void visit(Point2 a, Point2 b, const Visitor& visitor) const {
+    Box2 query;
+    query.add(a);
+    query.add(b);
+    const Range x = columns(query.x_min, query.x_max), y = rows(query.y_min, query.y_max);
+    for (std::size_t row = y.first; row <= y.last; ++row) {
+      for (std::size_t column = x.first; column <= x.last; ++column) {
+        const std::size_t c = row * columns_ + column;
+        for (std::uint32_t i = first_[c]; i < first_[c + 1]; ++i) {
+          Box2 box;
+          for (const VertexId v : tin_.triangle(triangles_[i])) box.add(tin_.point(v));
+          if (box.x_min > query.x_max || box.x_max < query.x_min || box.y_min > query.y_max ||
+              box.y_max < query.y_min) {
+            continue;
+          }
+          // Of the cells that both meet, the first one tells.
+          const bool first = column == std::max(x.first, columns(box.x_min, box.x_min).first) &&
+                             row == std::max(y.first, rows(box.y_min, box.y_min).first);
+          if (first) visitor(triangles_[i]);
+        }
+      }
+    }
+  }
 
  private:
   struct Range {

@@ -6,9 +6,10 @@
 //    a triangle is a fault; one off the surface is where the surface was cut.
 // 3. Heights. At a vertex that hard lines touch, its height lies in the range of theirs there; else in the
 //    range of the points at it, so it is theirs where they agree. Wherever a source says another height than
-//    the vertex has, the report has to name the place and the height used.
+//    the vertex has, the report has to name the place and the height used. In a lake all heights are one.
 #include "verify/exact.hpp"
 #include "verify/plain_grid.hpp"
+#include "verify/plain_lakes.hpp"
 #include "verify/plain_mesh.hpp"
 
 #include <thalweg/verify/sources.hpp>
@@ -64,6 +65,7 @@ class SourceChecker {
         vertices_(box_, subject.points.size(), 2),
         edges_(box_, subject.points.size(), 2),
         triangles_(box_, subject.points.size(), 2),
+        lakes_(sources.lines, sources.snap + sources.pixel + sources.bend),
         said_(subject.points.size()) {
     for (Index v = 0; v < subject.points.size(); ++v) {
       const Point2 p = subject.points[v];
@@ -88,6 +90,7 @@ class SourceChecker {
       findings.push_back(check_coverage());
     }
     findings.push_back(check_heights());
+    if (lakes_.any()) findings.push_back(lakes_.check_flat(subject_));
     return findings;
   }
 
@@ -169,7 +172,8 @@ class SourceChecker {
         merged += met.insert(*v).second ? 0 : 1;
       } else if (const auto height = height_at(p)) {
         const double error = std::abs(*height - sources_.heights[i]);
-        if (sources_.largest_error && error <= *sources_.largest_error * (1 + 1e-9) + 1e-9) {
+        const bool levelled = sources_.largest_error && lakes_.hold(p);
+        if (levelled || (sources_.largest_error && error <= *sources_.largest_error * (1 + 1e-9) + 1e-9)) {
           ++near;
           continue;
         }
@@ -324,7 +328,8 @@ class SourceChecker {
       most = std::max(most, height.to);
     }
     const std::string where = fmt::format("vertex {} at {} has height {}", v, text(subject_.points[v]), z);
-    if (z < least || z > most) return where + fmt::format(", sources say {} to {}", least, most);
+    if ((z < least || z > most) && !lakes_.hold(subject_.points[v]))
+      return where + fmt::format(", sources say {} to {}", least, most);
     if (!sources_.conflicts) return {};
     const auto disagrees = [&](double height) { return height != z; };
     if (std::none_of(said.points.begin(), said.points.end(), disagrees)) return {};
@@ -361,6 +366,7 @@ class SourceChecker {
   Box2 box_;
   PlainGrid vertices_, edges_, triangles_;
   std::map<Point2, Index> at_;
+  PlainLakes lakes_;
   std::vector<Said> said_;  ///< by vertex
 };
 

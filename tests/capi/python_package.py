@@ -92,6 +92,12 @@ class Package(unittest.TestCase):
         inner = [[1.5, 1.5], [2.5, 1.5], [2.5, 2.5], [1.5, 2.5], [1.5, 1.5]]
         area = thalweg.build(points, boundary=[ring], holes=[inner]).report["tin"]["area_m2"]
         self.assertAlmostEqual(area, 4 * 3 - 1)
+        pond = thalweg.build(points, lakes=[[[x, y, 0.25] for x, y in ring]])
+        wet = (pond.vertices[:, 0] >= 0.5) & (pond.vertices[:, 0] <= 4.5)
+        wet &= (pond.vertices[:, 1] >= 0.5) & (pond.vertices[:, 1] <= 3.5)
+        self.assertEqual(set(pond.vertices[wet, 2]), {0.25})
+        self.assertEqual(pond.report["input"]["lakes"], 1)
+        self.assertEqual(set(pond.constraints[1]), {thalweg.LAKE})
 
     def test_failures(self):
         points = np.zeros((5, 3))

@@ -18,6 +18,7 @@ struct ConvertArguments {
   RasterConfig raster;
   ContourConfig contours;
   std::string extent;
+  std::string profile;
   bool has_contours = false;
   Common common;
 };
@@ -55,6 +56,10 @@ void add_contour_options(CLI::App& command, ConvertArguments& a) {
       ->capture_default_str();
 }
 
+void add_profile_option(CLI::App& command, ConvertArguments& a) {
+  command.add_option("--profile", a.profile, "lines along which a table of heights is written, .csv");
+}
+
 void run_convert(const CLI::App& command, ConvertArguments& a) {
   if (!a.extent.empty()) a.raster.extent = parse_box("--extent", a.extent);
   bool raster = false;
@@ -66,6 +71,13 @@ void run_convert(const CLI::App& command, ConvertArguments& a) {
       throw Error(ErrorCode::Usage, "--contours needs --interval H, the difference between their heights");
     }
     a.config.contours = a.contours;
+  }
+  if (!a.profile.empty()) {
+    if (raster || a.has_contours) {
+      throw Error(ErrorCode::Usage,
+                  "--profile gives a table, and takes no options of a raster or of contours");
+    }
+    a.config.profile = ProfileConfig{parse_source(a.profile)};
   }
   if (raster) a.config.raster = a.raster;
   const ConvertResult result = convert_tin(a.config, progress_of(a.common));
@@ -81,12 +93,13 @@ void run_convert(const CLI::App& command, ConvertArguments& a) {
 void add_convert_command(CLI::App& app) {
   auto a = std::make_shared<ConvertArguments>();
   CLI::App* command =
-      app.add_subcommand("convert", "a TIN to another mesh, vector layers, a raster, contours");
+      app.add_subcommand("convert", "a TIN to another mesh, vector layers, a raster, contours, profiles");
   command->add_option("TIN", a->config.input, "TIN file")->required();
   command->add_option("OUTPUT", a->config.output, "file to write; its extension or --of says what")
       ->required();
   add_raster_options(*command, *a);
   add_contour_options(*command, *a);
+  add_profile_option(*command, *a);
   command->add_option("--of", a->config.format,
                       "format: of `thalweg formats`, or GDAL's name (GTiff, COG, ...)");
   command->add_option("--co", a->config.creation_options, "creation option K=V; repeatable")

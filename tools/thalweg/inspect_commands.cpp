@@ -16,15 +16,22 @@ namespace thalweg::cli {
 void add_info_command(CLI::App& app) {
   struct Arguments {
     std::string input;
+    double above = 0;
+    VolumeConfig volumes;
     Common common;
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("info", "what a TIN is: counts, CRS, extent, pits, histograms, validity");
   command->add_option("TIN", a->input, "TIN file")->required();
+  command->add_option("--volume-above", a->above,
+                      "volume above and below the level plane at this height, in the TIN's unit of heights");
+  command->add_option("--volume-between", a->volumes.between,
+                      "volume above and below another TIN of the same CRS, where both are");
   add_common_options(*command, a->common);
-  command->callback([a] {
-    const TinInfo info = inspect_tin(a->input, progress_of(a->common));
+  command->callback([a, command] {
+    if (command->count("--volume-above") > 0) a->volumes.above = a->above;
+    const TinInfo info = inspect_tin(a->input, progress_of(a->common), a->volumes);
     print(a->common.format == Format::Json ? to_json(info) : to_text(info));
   });
 }

@@ -63,6 +63,8 @@ struct Ground {
   std::size_t duplicates_merged = 0;     ///< points that joined an earlier one
   std::size_t outside_boundary = 0;      ///< distinct points that were dropped
   std::size_t crossings = 0;             ///< vertices that are neither points nor line vertices
+  std::size_t lakes = 0;                 ///< bodies of water; lakes that touch are one
+  std::size_t points_in_lakes = 0;       ///< points whose height gave way to a lake's level
   double pixel = 0;                      ///< no line was moved so far; plane units; 0 without lines
   GroundMode mode = GroundMode::Hull;
 };
@@ -70,7 +72,9 @@ struct Ground {
 /// Builds the ground of a survey. Lines with heights are hard: theirs beat those of points. Lines without are
 /// soft: new vertices of theirs get the height of the Delaunay ground of all points and hard lines.
 /// Lines of kind Boundary are closed rings; inside is what an odd number of them surrounds. Lines of kind
-/// Hole are the rings of areas, one area a feature; what any of these surrounds is cut out. Throws:
+/// Hole are the rings of areas, one area a feature; what any of these surrounds is cut out. Lines
+/// of kind Lake are the rings of lakes, one lake a feature: all vertices in it, shore included, get one
+/// height: the lowest that its rings have, else the lowest of the vertices on its shore. Throws:
 /// Error{BadCoordinate} not finite or beyond 1e15; {TooFewPoints}, {Collinear} no triangle exists;
 /// {CrossingLines} under CrossingRule::Error; {OutsideHull} a soft vertex outside of that ground;
 /// {WrongGeometry} an open ring; {TooClose} vertices too close for double arithmetic; {Cancelled}.

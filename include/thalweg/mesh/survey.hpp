@@ -48,6 +48,7 @@ struct Conflict {
     PointOnLine,     ///< a point at a vertex or on an edge of a line with heights
     LineVertex,      ///< two lines share a vertex position
     Crossing,        ///< two lines cross, touch or overlap
+    Lake,            ///< a point or a line in a lake, or a ring of it, that has not its level
   };
   Kind kind = Kind::DuplicatePoint;
   Point2 xy;

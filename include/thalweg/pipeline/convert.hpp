@@ -4,6 +4,7 @@
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/geometry/point.hpp>
+#include <thalweg/io/source.hpp>
 #include <thalweg/io/write_raster.hpp>
 #include <thalweg/terrain/sample_surface.hpp>
 
@@ -31,6 +32,10 @@ struct ContourConfig {
   std::string field = "elev";
 };
 
+struct ProfileConfig {
+  SourceSpec lines;
+};
+
 struct ConvertConfig {
   std::string input;
   std::string output;
@@ -39,19 +44,23 @@ struct ConvertConfig {
   bool overwrite = false;
   std::optional<RasterConfig> raster;
   std::optional<ContourConfig> contours;
+  std::optional<ProfileConfig> profile;
 };
 
 struct ConvertResult {
-  enum class Kind { Tin, Raster, Contours } kind = Kind::Tin;
+  enum class Kind { Tin, Raster, Contours, Profile } kind = Kind::Tin;
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t columns = 0, rows = 0, cells_without_data = 0;  ///< of a raster
-  std::size_t lines = 0;                                      ///< contour lines
+  std::size_t lines = 0;  ///< contour lines, or lines of which there are profiles
+  std::size_t profile_rows = 0;
 };
 
-/// Converts a TIN file; what to is decided by `contours`, then by the format. A mesh keeps vertices, ids,
-/// triangles, constraint edges, orders and CRS, as far as the format can hold them. Throws: Error; no output
-/// is left then.
+/// Converts a TIN file; what to is decided by `profile`, `contours`, then by the format. A profile is a CSV
+/// table `line,part,distance,x,y,z`: a row for each vertex of a line and each edge that it crosses; lines
+/// count from 0, parts (of lines that leave the surface) likewise, distances are metres along the line. A
+/// mesh keeps vertices, ids, triangles, constraint edges, orders and CRS, as far as the format can hold them.
+/// Throws: Error; no output is left then.
 ConvertResult convert_tin(const ConvertConfig& config, Progress& progress);
 
 std::string to_json(const ConvertResult& result);

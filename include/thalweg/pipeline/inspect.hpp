@@ -8,10 +8,27 @@
 #include <thalweg/pipeline/report.hpp>
 #include <thalweg/terrain/statistics.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace thalweg {
+
+/// What the TIN is measured against.
+struct VolumeConfig {
+  std::optional<double> above;  ///< a level plane, in the TIN's unit of heights
+  std::string between;          ///< another TIN file in the same CRS; empty: none
+};
+
+/// Where both surfaces are.
+struct VolumeInfo {
+  std::string reference;  ///< "height 12.5", or the path
+  double above_m3 = 0;    ///< what the TIN has above the reference
+  double below_m3 = 0;    ///< and below
+  double area_above_m2 = 0;
+  double area_below_m2 = 0;
+  double area_m2 = 0;
+};
 
 struct TinInfo {
   std::string path;
@@ -21,11 +38,13 @@ struct TinInfo {
   ReportPits pits;
   TinStatistics statistics;
   std::string digest;
+  std::vector<VolumeInfo> volumes;
   std::vector<Violation> violations;  ///< empty: valid
 };
 
-/// Reads and measures a TIN file. Throws: Error{NotFound, BadFormat, InvalidTin, ...}.
-TinInfo inspect_tin(const std::string& path, Progress& progress);
+/// Reads and measures a TIN file. Throws: Error{NotFound, BadFormat, InvalidTin, ...}; Error{BadCrs} if the
+/// TIN to compare with has another CRS.
+TinInfo inspect_tin(const std::string& path, Progress& progress, const VolumeConfig& volumes = {});
 std::string to_json(const TinInfo& info);
 std::string to_text(const TinInfo& info);
 

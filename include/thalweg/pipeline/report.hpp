@@ -34,6 +34,8 @@ struct ReportInput {
   std::size_t breaklines_read = 0;
   std::size_t breakline_vertices = 0;
   std::size_t crossings = 0;
+  std::size_t lakes = 0;                       ///< bodies of water; lakes that touch are one
+  std::size_t points_in_lakes = 0;             ///< points whose height gave way to a lake's level
   std::size_t vertices_inserted_on_lines = 0;  ///< points exactly on a line, and densified pieces
   double snapping_pixel = 0;  ///< side of the snapping grid, units of the plane; 0 without lines
 };
@@ -116,8 +118,7 @@ struct ReportSimplification {
   std::size_t fixed_vertices = 0;     ///< vertices of lines and of the outline, which stay
   std::size_t inserted_vertices = 0;  ///< the others that the TIN has
   std::size_t barred_diagonals = 0;   ///< quadrilaterals that keep theirs for the error's sake
-  std::array<double, 2> largest_error_m{};
-  std::array<double, 2> rms_error_m{};  ///< over all source points
+  std::array<double, 2> largest_error_m{}, rms_error_m{};  ///< rms: over all source points
 };
 
 struct Report {

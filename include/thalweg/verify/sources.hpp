@@ -20,7 +20,8 @@ namespace thalweg::verify {
 /// A line in the plane of triangulation.
 struct SourceLine {
   EdgeKind kind = EdgeKind::Breakline;
-  std::string name;  ///< "lines.gpkg|valleys feature 3 part 0"
+  std::string feature;  ///< "lines.gpkg|valleys feature 3": the rings of one area have it in common
+  std::string name;     ///< "lines.gpkg|valleys feature 3 part 0"
   std::vector<Point2> xy;
   std::vector<double> z;    ///< as long as xy; empty: a soft line
   std::vector<bool> given;  ///< false: not drawn, but on the way where the line bends; empty: all are drawn
@@ -47,9 +48,9 @@ struct Sources {
 };
 
 /// One line for each: points (of a simplified source: those that were kept) and vertices of lines are
-/// vertices, heights are theirs, lines are covered. What lies on the surface and is missing breaks the claim;
-/// what lies off it has to be allowed for by `is_cut` and `positions_left_out`. Pre: the mesh is sound.
-/// Throws: Error{Cancelled}. Complexity: n log n for usual input.
+/// vertices, heights are theirs, lines are covered, lakes are flat. What lies on the surface and is missing
+/// breaks the claim; what lies off it has to be allowed for by `is_cut` and `positions_left_out`. Pre: the
+/// mesh is sound. Throws: Error{Cancelled}. Complexity: n log n for usual input.
 std::vector<Finding> check_sources(const Subject& subject, const Sources& sources, Progress& progress);
 
 }  // namespace thalweg::verify

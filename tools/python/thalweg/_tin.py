@@ -101,14 +101,14 @@ def _set_options(job: int, options: Dict[str, Any]) -> None:
 
 
 def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (), valleys: Iterable[Source] = (),
-          breaklines: Iterable[Source] = (), boundary: Iterable[Source] = (), holes: Iterable[Source] = (),
+          breaklines: Iterable[Source] = (), boundary: Iterable[Source] = (), holes: Iterable[Source] = (), lakes: Iterable[Source] = (),
           crs: Optional[str] = None, progress: Optional[Progress] = None, **options: Any) -> Tin:
     """Builds a TIN.
 
     points: an array (n, 3) of x, y, z, a source "PATH" or "PATH|layername=NAME", or a list of sources. Vertex i
     of the TIN is the i-th distinct point that is used.
-    ridges, valleys, breaklines: sources, or arrays (n, 3) with heights or (n, 2) without; boundary, holes: the
-    same, each array one closed ring. crs: of the coordinates, where sources do not say it (option a-crs).
+    ridges, valleys, breaklines: sources, or arrays (n, 3) with heights or (n, 2) without; boundary, holes,
+    lakes: the same, each array one closed ring. crs: of the coordinates, where sources do not say it (option a-crs).
     options: those of `thalweg build`, dashes as underscores: order=1, optimize="none", max_error=0.5.
     progress: called with phase and fraction; cancels if it returns True; what it raises is raised here.
 
@@ -140,7 +140,7 @@ def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (
             call("job_add_points", job, _pointer(array, ctypes.c_double), array.shape[0])
         for name, kind, lines in (("ridges", RIDGE, ridges), ("valleys", VALLEY, valleys),
                                   ("breaklines", BREAKLINE, breaklines), ("boundary", BOUNDARY, boundary),
-                                  ("holes", HOLE, holes)):
+                                  ("holes", HOLE, holes), ("lakes", LAKE, lakes)):
             for line in [lines] if _is_path(lines) else lines:
                 if _is_path(line):
                     call("job_set_option", job, name.encode(), os.fsencode(line))

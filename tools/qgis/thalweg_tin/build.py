@@ -45,6 +45,9 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
             "BOUNDARY", "Areas to keep", QgsProcessing.TypeVectorPolygon, optional=True))
         self.addParameter(QgsProcessingParameterMultipleLayers(
             "HOLES", "Areas to cut out", QgsProcessing.TypeVectorPolygon, optional=True))
+        self.addParameter(QgsProcessingParameterMultipleLayers(
+            "LAKES", "Lakes, flat at their z, else at the lowest height of the shore", QgsProcessing.TypeVectorPolygon,
+            optional=True))
         self.addParameter(QgsProcessingParameterNumber(
             "ORDER", "Largest order of a triangle (0: constrained Delaunay)", defaultValue=1, minValue=0))
         self.addParameter(QgsProcessingParameterCrs("TARGET_CRS", "CRS of the TIN (default: that of the points)",
@@ -78,7 +81,7 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
         arguments = ["build", self.source(layer, context, feedback), output, "--overwrite", "--progress"]
         for name, option in (("VALLEYS", "--valleys"), ("RIDGES", "--ridges"), ("BREAKLINES", "--breaklines"),
-                             ("BOUNDARY", "--boundary"), ("HOLES", "--holes")):
+                             ("BOUNDARY", "--boundary"), ("HOLES", "--holes"), ("LAKES", "--lakes")):
             for lines in self.parameterAsLayerList(parameters, name, context) or []:
                 arguments += [option, self.source(lines, context, feedback)]
         fields = [("LINE_Z_FIELD", "--line-z-field"), ("KIND_FIELD", "--kind-field"), ("OPTIMIZE", "--optimize")]
