@@ -136,6 +136,15 @@ def main():
                         "--valleys", f"{lines}|layername=valleys", "--ridges", f"{lines}|layername=ridges"], check=True)
         same = pathlib.Path(folder, "same.ply").read_bytes() == pathlib.Path(folder, "tin.ply").read_bytes()
         bench.check("same bytes as the command line", same, "they differ")
+        dem = str(pathlib.Path(source, "sample_terrains", "jacksboro", "dem.tif"))
+        bench.algorithm("simplify", "simple.ply", INPUT=dem, MAX_ERROR=20, OUTPUT=f"{folder}/simple.ply",
+                        REPORT=f"{folder}/simple.json")
+        simple = json.load(open(f"{folder}/simple.json"))["simplification"]
+        bench.check("within the bound", simple["stopped_by"] == "max-error" and
+                    simple["largest_error_m"]["result"] <= 20, str(simple))
+        status, text = bench.run(QGIS_PROCESS, "run", "thalweg:simplify", f"--INPUT={dem}", "--MAX_POINTS=2",
+                                 f"--OUTPUT={folder}/no.ply")
+        bench.check("too few points are refused", status != 0, text)
         tin = f"{folder}/tin.ply"
         bench.algorithm("optimize", "delaunay.ply", INPUT=tin, OPTIMIZE="none", OUTPUT=f"{folder}/delaunay.ply")
         bench.algorithm("orders", "quads.csv", INPUT=f"{folder}/points.gpkg", TRIANGLE="0,1,2",

@@ -11,6 +11,7 @@ from .convert import ExportTin, TinToContours, TinToLayers, TinToRaster
 from .optimize import OptimizeTin
 from .orders import ConstrainedOrders
 from .program import SETTING
+from .simplify import SimplifyDem
 
 
 class ThalwegProvider(QgsProcessingProvider):
@@ -39,6 +40,6 @@ class ThalwegProvider(QgsProcessingProvider):
         ProcessingConfig.removeSetting(SETTING)
 
     def loadAlgorithms(self):  # noqa: N802
-        for algorithm in (BuildTin, OptimizeTin, ConstrainedOrders, TinToRaster, TinToContours, TinToLayers,
+        for algorithm in (BuildTin, SimplifyDem, OptimizeTin, ConstrainedOrders, TinToRaster, TinToContours, TinToLayers,
                           ExportTin):
             self.addAlgorithm(algorithm())
