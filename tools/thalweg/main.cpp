@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <memory>
 #include <new>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -82,12 +83,27 @@ int fail(std::string_view code, std::string_view message, int status) {
   return status;
 }
 
+/// Shows the names that an option takes, "{first,last}", and not what they stand for inside.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    static const std::regex kChoice("ENUM:value in \\{([^}]*)\\} OR \\{[^}]*\\}");
+    static const std::regex kInside("->[^,]*");
+    const std::string text = CLI::Formatter::make_option_opts(option);
+    std::smatch found;
+    if (!std::regex_search(text, found, kChoice)) return text;
+    return found.prefix().str() + "{" + std::regex_replace(found[1].str(), kInside, "") + "}" +
+           found.suffix().str();
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Thalweg builds terrain TINs: higher-order constrained Delaunay triangulations of elevation\n"
       "points and ridge and valley lines, optimised with proof.",
       "thalweg"};
   app.set_version_flag("--version", "thalweg " + version());
+  app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 done; 1 failed (data, input/output, memory); 2 usage; 130 interrupted.\n"
