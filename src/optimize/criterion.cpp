@@ -79,9 +79,11 @@ double angle_in_degrees(double radians) {
   return radians * kDegreesPerRadian;
 }
 
-/// Area of a triangle in the plane, in square metres.
+/// Area of a triangle in the plane. In units of 1024 square metres, so that the largest that can be told is
+/// above 10^6 square kilometres, and the smallest difference a quarter of a square millimetre.
+constexpr double kAreaUnit = 1024;
 double area(const Face& face, Scale /*scale*/) {
-  return face.normal.z / 2;
+  return face.normal.z / 2 / kAreaUnit;
 }
 
 /// Angles of a triangle in the plane at its three corners, in degrees.
@@ -165,9 +167,9 @@ constexpr std::array kDeclarations = {
         {Criterion::AreaRatioMax, "area-ratio-max", "ratio", kMinimise, Coupling::Edge, Combination::Max},
         nullptr,
         area_ratio},
-    Declaration{
-        {Criterion::MaxArea, "max-area", "square metres", kMinimise, Coupling::OneTriangle, Combination::Max},
-        area},
+    Declaration{{Criterion::MaxArea, "max-area", "square metres", kMinimise, Coupling::OneTriangle,
+                 Combination::Max, kAreaUnit},
+                area},
     // Bern, Eppstein, Mesh generation and optimal triangulation, 1992: the min-max angle and the max-min
     // angle triangulation.
     Declaration{
@@ -229,6 +231,18 @@ std::string shortest(double value) {
 }
 
 }  // namespace
+
+double steps_per_unit(const Objective& objective) {
+  const double sign = objective.direction() == Direction::Maximise ? -1 : 1;
+  return sign * kStepsPerUnit /
+         (objective.is_weighted ? 1 : traits_of(objective.parts.front().criterion).term_unit);
+}
+
+void refuse_term(double value) {
+  throw Error(ErrorCode::SizeLimit, "a term of a criterion is " + std::to_string(value) +
+                                        ", more than 2^30 of its unit; split the area, or give the criterion "
+                                        "a small weight, such as 0.001*vertical-error");
+}
 
 std::span<const CriterionTraits> all_criteria() {
   return kTraits;

@@ -49,4 +49,7 @@ struct Declaration {
 
 const Declaration& declaration_of(Criterion criterion);
 
+/// Steps of an objective's value in one unit; negative where it is maximised.
+double steps_per_unit(const Objective& objective);
+
 }  // namespace thalweg

@@ -82,14 +82,18 @@ using BodyPair = std::array<std::uint32_t, 2>;
 void angles_between(std::span<const Vector3> normals, std::span<const BodyPair> pairs,
                     std::span<double> angles);
 
-/// Terms are integers: multiples of 2^-32 of their unit, rounded once; at most 2^30 units.
+/// Throws: Error{SizeLimit}.
+[[noreturn]] void refuse_term(double value);
+
+/// Terms are integers: multiples of 2^-32 of their unit, rounded once. Throws: Error{SizeLimit} beyond 2^30
+/// units.
 constexpr double kStepsPerUnit = 0x1p32;
 
 constexpr double kMostUnits = 0x1p30;
-constexpr std::int64_t kMostSteps = std::int64_t{1} << 62;
 
 inline std::int64_t to_steps(double value) {
-  const double steps = std::clamp(value, -kMostUnits, kMostUnits) * kStepsPerUnit + 0.5;
+  if (!(std::abs(value) <= kMostUnits)) refuse_term(value);
+  const double steps = value * kStepsPerUnit + 0.5;
   const auto towards_zero = static_cast<std::int64_t>(steps);
   return towards_zero - (static_cast<double>(towards_zero) > steps ? 1 : 0);
 }

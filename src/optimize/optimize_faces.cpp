@@ -361,7 +361,7 @@ class FaceRun {
     const bool is_count = counts_pits(level) || !levels_[level];
     if (counts_pits(level)) bound = choice.bound.level[level];
     if (is_extreme(level)) bound = settled_[level].bound;
-    const double per_unit = is_count ? 1 : (line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit);
+    const double per_unit = is_count ? 1 : steps_per_unit(*levels_[level]);
     line.delaunay = static_cast<double>(delaunay) / per_unit;
     line.result = static_cast<double>(result) / per_unit;
     line.bound = static_cast<double>(bound) / per_unit;

@@ -269,7 +269,7 @@ class Run {
 
   void fill_extreme(CriterionResult& line, std::size_t level, bool proved_before) const {
     const Settled& settled = settled_[level];
-    const double per_unit = line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit;
+    const double per_unit = steps_per_unit(problem_.sums[level]);
     const std::int64_t result =
         extreme_of(scan_, problem_.sums[level], problem_.labelling.first, solution_.label, progress_);
     line.delaunay = static_cast<double>(settled.delaunay) / per_unit;
@@ -282,7 +282,7 @@ class Run {
   /// Bounds compare lexicographically: that of a level holds if all levels before have reached theirs.
   void fill_sum(CriterionResult& line, std::size_t level, bool proved_before) const {
     const WideSteps delaunay = problem_.delaunay[level];
-    const double per_unit = line.direction == "max" ? -kStepsPerUnit : kStepsPerUnit;
+    const double per_unit = steps_per_unit(problem_.sums[level]);
     line.delaunay = static_cast<double>(delaunay) / per_unit;
     line.result = static_cast<double>(delaunay + solution_.value.level[level]) / per_unit;
     const std::int64_t bound =

@@ -322,11 +322,7 @@ Extreme find_extreme(const TermScan& scan, const Objective& objective, std::span
     for (std::size_t i = 0; i < terms.tables.size(); ++i) block.table(terms.tables.entries(i));
     if (declaration.sum_is_fixed) block.at_least(mean_of(terms));
   }
-  Extreme extreme = sink.take();
-  if (extreme.values.back() < kMostSteps && extreme.values.front() > -kMostSteps) return extreme;
-  throw Error(ErrorCode::SizeLimit, "a value of " + objective.name() +
-                                        " is beyond 1073741824 of its unit, where it cannot be compared "
-                                        "exactly; build a smaller area");
+  return sink.take();
 }
 
 std::int64_t extreme_of(const TermScan& scan, const Objective& objective,

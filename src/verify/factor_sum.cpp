@@ -38,11 +38,32 @@ Factor sorted(const Factor& factor) {
   return result;
 }
 
+Factor without(const Factor& factor, std::size_t place, bool label) {
+  Factor rest;
+  const std::size_t bit = std::size_t{1} << place;
+  for (std::size_t j = 0; j < factor.scope.size(); ++j) {
+    if (j != place) rest.scope.push_back(factor.scope[j]);
+  }
+  for (std::size_t i = 0; i < factor.table.size(); ++i) {
+    if (((i & bit) != 0) == label) rest.table.push_back(factor.table[i]);
+  }
+  return rest;
+}
+
+/// The factor without the variables on which it does not depend.
+Factor without_idle(Factor factor) {
+  for (std::size_t place = factor.scope.size(); place-- > 0;) {
+    Factor off = without(factor, place, false);
+    if (off.table == without(factor, place, true).table) factor = std::move(off);
+  }
+  return factor;
+}
+
 }  // namespace
 
 FactorSum::FactorSum(std::size_t variables, std::vector<Factor> factors)
     : of_(variables), open_(variables, true) {
-  for (Factor& factor : factors) attach(std::move(factor));
+  for (Factor& factor : factors) attach(without_idle(std::move(factor)));
 }
 
 void FactorSum::attach(Factor factor) {
@@ -101,15 +122,7 @@ std::vector<Index> FactorSum::fix(Index q, bool label) {
   std::vector<Index> touched = neighbours(q);
   const std::vector<Index> own = of_[q];
   for (const Index f : own) {
-    Factor rest;
-    const std::size_t bit = std::size_t{1} << place_of(factors_[f].scope, q);
-    for (const Index v : factors_[f].scope) {
-      if (v != q) rest.scope.push_back(v);
-    }
-    for (std::size_t i = 0; i < factors_[f].table.size(); ++i) {
-      if (((i & bit) != 0) == label) rest.table.push_back(factors_[f].table[i]);
-    }
-    replace(f, std::move(rest));
+    replace(f, without_idle(without(factors_[f], place_of(factors_[f].scope, q), label)));
   }
   open_[q] = false;
   return touched;

@@ -30,6 +30,7 @@ struct Elimination {
   std::vector<bool> choice;
 };
 
+/// Variables on which a factor does not depend leave its scope.
 class FactorSum {
  public:
   FactorSum(std::size_t variables, std::vector<Factor> factors);

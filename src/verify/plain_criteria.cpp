@@ -118,7 +118,8 @@ Volume volume_at(const PlainMesh& mesh, Index a, Index b, Index l, Index r) {
   return volume;
 }
 
-// +1 if the surface is convex along the edge (a ridge), -1 if reflex, 0 if flat.
+}  // namespace
+
 int bend(const PlainMesh& mesh, Index a, Index b, Index l, Index r) {
   const Volume volume = volume_at(mesh, a, b, l, r);
   if (std::abs(volume.value) > volume.magnitude * 0x1p-58L) return volume.value < 0 ? 1 : -1;
@@ -137,12 +138,14 @@ int bend(const PlainMesh& mesh, Index a, Index b, Index l, Index r) {
   return -sum.sign();
 }
 
+namespace {
+
 Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion,
                        const std::string& name, Index a, Index b, Index c) {
   if (name == "vertical-error") {
     return criterion.reference->squares(mesh, a, b, c) * scale.vertical * scale.vertical;
   }
-  if (name == "max-area") return doubled_area(mesh, scale, a, b, c) / 2;
+  if (name == "max-area") return doubled_area(mesh, scale, a, b, c) / 2 / criterion.term_unit;
   if (name == "flat-triangles") return mesh.z[a] == mesh.z[b] && mesh.z[b] == mesh.z[c] ? 1 : 0;
   const Extended first = corner_angle(mesh, a, b, c), second = corner_angle(mesh, b, c, a),
                  third = corner_angle(mesh, c, a, b);
@@ -183,6 +186,8 @@ void for_inner_edges(const PlainMesh& mesh, const F& f) {
   }
 }
 
+}  // namespace
+
 std::vector<bool> rim_of(const PlainMesh& mesh) {
   std::vector<bool> rim(mesh.xy.size(), false);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -194,40 +199,37 @@ std::vector<bool> rim_of(const PlainMesh& mesh) {
   return rim;
 }
 
-Extended vertex_value(const PlainMesh& mesh, const std::string& name) {
-  struct Ring {
-    std::size_t edges = 0, convex = 0, reflex = 0;
-  };
-  std::vector<Ring> rings(mesh.xy.size());
+namespace {
+
+Extended vertex_part(const std::string& name, const PlainRing& ring) {
+  if (name == "max-degree") return static_cast<Extended>(ring.edges);
+  if (ring.on_rim) return 0;
+  if (name == "convex-vertices") return ring.convex == ring.edges ? 1 : 0;
+  return ring.convex > 0 && ring.reflex > 0 ? 1 : 0;  // mixed-vertices
+}
+
+/// Of all vertices that are in a triangle.
+std::vector<PlainRing> rings_of(const PlainMesh& mesh) {
+  std::vector<PlainRing> rings(mesh.xy.size());
+  const std::vector<bool> rim = rim_of(mesh);
+  for (std::size_t v = 0; v < rings.size(); ++v) rings[v].on_rim = rim[v];
   for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
-    const int side = name == "max-degree" ? 0 : bend(mesh, a, b, l, r);
+    const int side = bend(mesh, a, b, l, r);
     for (const Index v : {a, b}) {
       ++rings[v].edges;
       rings[v].convex += side > 0 ? 1 : 0;
       rings[v].reflex += side < 0 ? 1 : 0;
     }
   });
-  if (name == "max-degree") {
-    std::size_t most = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (mesh.across[t][i] != kNone) continue;
-        ++rings[mesh.triangles[t][i]].edges;
-        ++rings[mesh.triangles[t][(i + 1) % 3]].edges;
-      }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mesh.across[t][i] != kNone) continue;
+      ++rings[mesh.triangles[t][i]].edges;
+      ++rings[mesh.triangles[t][(i + 1) % 3]].edges;
     }
-    for (const Ring& ring : rings) most = std::max(most, ring.edges);
-    return static_cast<Extended>(most);
   }
-  const std::vector<bool> rim = rim_of(mesh);
-  std::size_t count = 0;
-  for (std::size_t v = 0; v < rings.size(); ++v) {
-    if (rim[v] || rings[v].edges == 0) continue;
-    const bool counted = name == "convex-vertices" ? rings[v].convex == rings[v].edges
-                                                   : rings[v].convex > 0 && rings[v].reflex > 0;
-    count += counted ? 1 : 0;
-  }
-  return static_cast<Extended>(count);
+  std::erase_if(rings, [](const PlainRing& ring) { return ring.edges == 0; });
+  return rings;
 }
 
 // A set's representative, with the path to it halved on the way.
@@ -243,6 +245,7 @@ std::optional<PlainCriterion> plain_criterion(const std::string& name, const Pla
   if (name.find("vertical-error") != std::string::npos && reference == nullptr) return std::nullopt;
   if (const Known* known = find_known(name)) {
     criterion = {{{1, name}}, known->depends, known->combines, known->maximised, known->counts, reference};
+    if (name == "max-area") criterion.term_unit = 1024;
     return criterion;
   }
   criterion.reference = reference;
@@ -296,6 +299,21 @@ std::int64_t edge_term(const PlainMesh& mesh, PlainScale scale, const PlainCrite
   return steps;
 }
 
+std::int64_t vertex_term(const PlainCriterion& criterion, const PlainRing& ring) {
+  std::int64_t steps = 0;
+  for (const PlainCriterion::Part& part : criterion.parts) {
+    if (find_known(part.name)->depends != Depends::OnVertex) continue;
+    steps += to_steps(part.weight * vertex_part(part.name, ring));
+  }
+  return steps;
+}
+
+bool has_vertex_part(const PlainCriterion& criterion) {
+  return std::any_of(criterion.parts.begin(), criterion.parts.end(), [](const PlainCriterion::Part& part) {
+    return find_known(part.name)->depends == Depends::OnVertex;
+  });
+}
+
 std::int64_t constant_term(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion) {
   std::int64_t steps = 0;
   for (const PlainCriterion::Part& part : criterion.parts) {
@@ -321,30 +339,25 @@ std::size_t count_uncertain_bends(const PlainMesh& mesh) {
 
 PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion) {
   if (criterion.depends == Depends::OnPlateau) return {static_cast<Extended>(count_pits(mesh).interior), 0};
-  Extended vertices = 0;
-  for (const PlainCriterion::Part& part : criterion.parts) {
-    if (find_known(part.name)->depends == Depends::OnVertex) {
-      vertices += part.weight * vertex_value(mesh, part.name);
-    }
-  }
   std::vector<std::int64_t> terms;
+  if (has_vertex_part(criterion)) {
+    for (const PlainRing& ring : rings_of(mesh)) terms.push_back(vertex_term(criterion, ring));
+  }
   for (const Corners& t : mesh.triangles) {
-    if (criterion.depends != Depends::OnVertex || criterion.parts.size() > 1) {
-      const bool any = criterion.depends == Depends::OnTriangle || criterion.parts.size() > 1;
-      if (any) terms.push_back(triangle_term(mesh, scale, criterion, t[0], t[1], t[2]));
-    }
+    const bool any = criterion.depends == Depends::OnTriangle || criterion.parts.size() > 1;
+    if (any) terms.push_back(triangle_term(mesh, scale, criterion, t[0], t[1], t[2]));
   }
   if (criterion.depends == Depends::OnEdge || criterion.parts.size() > 1) {
     for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
       terms.push_back(edge_term(mesh, scale, criterion, a, b, l, r));
     });
   }
-  if (criterion.combines != Combines::Sum && criterion.depends != Depends::OnVertex) {
+  if (criterion.combines != Combines::Sum) {
     const auto [least, most] = std::minmax_element(terms.begin(), terms.end());
     if (terms.empty()) return {};
-    const Extended value =
-        static_cast<Extended>(criterion.combines == Combines::Largest ? *most : *least) / kSteps;
-    return {value, 2 / kSteps + std::abs(value) * 1e-12L};
+    const Extended value = static_cast<Extended>(criterion.combines == Combines::Largest ? *most : *least) /
+                           kSteps * criterion.term_unit;
+    return {value, criterion.counts ? 0 : 2 * criterion.term_unit / kSteps + std::abs(value) * 1e-12L};
   }
   Extended sum = std::accumulate(terms.begin(), terms.end(), Extended{0},
                                  [](Extended s, std::int64_t t) { return s + static_cast<Extended>(t); });
@@ -359,7 +372,7 @@ PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterio
     const Extended ends = part.name == "convex-edges" ? 1 : 2;
     tolerance += ends * std::abs(part.weight) * static_cast<Extended>(count_uncertain_bends(mesh));
   }
-  return {vertices + sum / kSteps, tolerance};
+  return {sum / kSteps, tolerance};
 }
 
 PlainPits count_pits(const PlainMesh& mesh) {

@@ -30,7 +30,9 @@ struct Component {
 };
 
 /// One factor a set of quadrilaterals that share a term; all that no label changes has an empty scope.
-/// Pre: no two quadrilaterals share a triangle. Complexity: linear.
+/// Pre: no two quadrilaterals share a triangle; at most 20 meet at a vertex, if criteria depend on vertices
+/// (`most_at_vertex`). Complexity: linear; 2^k for k quadrilaterals at a vertex.
+std::size_t most_at_vertex(const PlainProblem& problem);
 std::vector<Factor> terms_of(const PlainProblem& problem, const std::vector<Component>& components);
 
 }  // namespace thalweg::verify

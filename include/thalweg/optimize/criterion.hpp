@@ -52,6 +52,7 @@ struct CriterionTraits {
   Direction direction;
   Coupling coupling;
   Combination combination;
+  double term_unit = 1;  ///< terms are in so many units: more than 1 where values are large
 };
 
 /// Every criterion, in the order of the enumeration.

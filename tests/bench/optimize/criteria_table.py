@@ -23,9 +23,10 @@ def terrains(root):
     for name in ("bigtujunga_srtm30", "jacksboro_lonlat", "slovenia_lidar1m", "tidal_marsh_nodata", "vermont_srtm90"):
         folder = root / name
         lines = ["--valleys", f"{folder}/lines.gpkg|layername=valleys", "--ridges", f"{folder}/lines.gpkg|layername=ridges"]
+        hard = ["--valleys", f"{folder}/lines.gpkg|layername=valleys_3d", "--ridges", f"{folder}/lines.gpkg|layername=ridges_3d"]
         reference = ["--reference", folder / "dem.tif"]
         crs = ["--a-crs", "EPSG:4326"] if name.endswith("lonlat") else []
-        yield name, [folder / "dem.tif", *lines], [folder / "points_significant.csv", *lines, *crs, *reference]
+        yield name, [folder / "dem.tif", *lines], [folder / "points_significant.csv", *hard, *crs, *reference]
     delft = root / "delft_ahn3_bgt"
     yield "delft_ahn3_bgt", [delft / "ground_water_points.csv", "--a-crs", "EPSG:28992",
                              "--breaklines", f"{delft}/bgt.gpkg|layername=breaklines_3d"], None
@@ -42,7 +43,7 @@ def number(value):
 
 def row(binary, terrain, sources, criterion, work):
     command = [binary, "build", *sources, f"{work}/t.ply", "--overwrite", "--report", f"{work}/r.json", "-q",
-               "--optimize", criterion]
+               "--optimize", criterion, *(["--effort", "20000000"] if criterion == "max-degree" else [])]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         print(f"{terrain} {criterion}: {done.stderr.strip()}", file=sys.stderr)

@@ -87,6 +87,10 @@ std::vector<std::vector<Objective>> priorities() {
           {Criterion::NormalAngleSum, Criterion::MaxAngle},
           {Criterion::LocalMinima, Criterion::NormalAngleMax, Criterion::EdgeLength},
           {Criterion::MinAngle, Criterion::MaxArea},
+          {Criterion::ConvexVertices},
+          {Criterion::LocalMinima, Criterion::MixedVertices, Criterion::NormalAngleSum},
+          {Criterion::MaxDegree, Criterion::ConvexVertices},
+          {parse_objective("3*mixed-vertices+0.5*normal-angle-sum")},
           {parse_objective("2*edge-length+0.5*normal-angle-sum-convex-edges")}};
 }
 
@@ -101,15 +105,16 @@ Scene whole_scene(Random& random) {
 TEST(Proof, HoldsForWhatTheOptimiserFinds) {
   Random random;
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 150 && !HasFailure(); ++i) {
+  for (int i = 0; i < 50 && !HasFailure(); ++i) {
     const Scene scene = whole_scene(random);
     for (const std::vector<Objective>& criteria : priorities()) {
       const Proved proved = prove(scene, criteria);
       for (const Finding& finding : check(proved, proved.text, 0)) {
         EXPECT_EQ(finding.verdict, Verdict::Holds) << finding.claim << ": " << finding.detail << "\n"
                                                    << proved.text;
-        const bool is_bound =
-            finding.claim.ends_with(", optimal") && !finding.claim.starts_with("local-minima");
+        const bool is_bound = finding.claim.ends_with(", optimal") &&
+                              !finding.claim.starts_with("local-minima") &&
+                              !finding.claim.starts_with("max-degree");
         if (is_bound) {
           EXPECT_EQ(finding.detail, "by the proof") << finding.claim << "\n" << proved.text;
         }
@@ -160,7 +165,7 @@ std::string changed(const std::string& text, Random& random) {
 TEST(Proof, NoChangeProvesMore) {
   Random random;
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < 100 && !HasFailure(); ++i) {
+  for (int i = 0; i < 20 && !HasFailure(); ++i) {
     const Scene scene = whole_scene(random);
     for (const std::vector<Objective>& criteria : priorities()) {
       const Proved proved = prove(scene, criteria);
