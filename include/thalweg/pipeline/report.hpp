@@ -15,8 +15,7 @@ namespace thalweg {
 /// Seconds of the phases of a run.
 struct PhaseSeconds {
   double read = 0;
-  double triangulate = 0;
-  double simplify = 0;
+  double triangulate = 0, simplify = 0;
   double orders = 0;
   double optimize = 0;
   double check = 0;  ///< the TIN's laws, pits and figures, by plain code
