@@ -140,9 +140,9 @@ void Leveller::find_shore() {
 std::span<const ShoreEdge> Leveller::shore_at(HalfedgeId h) const {
   const std::pair<std::uint32_t, std::uint32_t> ends =
       std::minmax(tin_.origin(h).value(), tin_.target(h).value());
-  const auto range = std::ranges::equal_range(
-      shore_, ends, {}, [](const ShoreEdge& edge) { return std::pair(edge.low, edge.high); });
-  return {range.begin(), range.end()};
+  const auto ends_of = [](const ShoreEdge& edge) { return std::pair(edge.low, edge.high); };
+  const auto first = std::ranges::lower_bound(shore_, ends, {}, ends_of);
+  return {first, std::ranges::upper_bound(first, shore_.end(), ends, {}, ends_of)};
 }
 
 // Step 1.

@@ -336,8 +336,9 @@ void OrderPicture::draw(Canvas& canvas) {
   const MapFrame frame = panel_.frame;
   for (std::size_t i = 0; i < scene_.panels.size(); ++i) {
     const OrderPanel& panel = scene_.panels[i];
-    const double left = margin_ + static_cast<double>(i % columns_) * (panel_.width + margin_);
-    const double top = first_top_ + static_cast<double>(i / columns_) * (head_ + panel_.height + margin_);
+    const std::size_t column = i % columns_, row = i / columns_;
+    const double left = margin_ + static_cast<double>(column) * (panel_.width + margin_);
+    const double top = first_top_ + static_cast<double>(row) * (head_ + panel_.height + margin_);
     draw_head(canvas, panel, left, top);
     panel_.left = left;
     panel_.top = top + head_;

@@ -53,7 +53,7 @@ void Canvas::ring(Point2 centre, double radius, Colour colour, double line_width
   cairo_stroke(cairo());
 }
 
-void Canvas::add_polygon(std::span<const Point2> corners) {
+void Canvas::add_polygon(std::span<const Point2> corners) const {
   cairo_new_sub_path(cairo());
   for (const Point2 p : corners) cairo_line_to(cairo(), p.x, p.y);
   cairo_close_path(cairo());

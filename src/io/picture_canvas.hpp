@@ -41,7 +41,7 @@ class Canvas {
   void disc(Point2 centre, double radius, Colour colour);
   void ring(Point2 centre, double radius, Colour colour, double line_width);
   /// Collects polygons; `fill` fills them all at once, so that no seam shows between neighbours.
-  void add_polygon(std::span<const Point2> corners);
+  void add_polygon(std::span<const Point2> corners) const;
   void fill(Colour colour);
 
   /// While it lives, nothing is drawn outside a box.
