@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
 
 namespace thalweg::detail {
 
@@ -118,9 +117,9 @@ FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {
   for (const Arc& arc : arcs) {
     before[arc.to] = std::min(before[arc.to], std::max(before[arc.from], order(arc.triangle)));
   }
-  for (const Arc& arc : std::views::reverse(arcs)) {
+  std::for_each(arcs.rbegin(), arcs.rend(), [&](const Arc& arc) {
     behind[arc.from] = std::min(behind[arc.from], std::max(behind[arc.to], order(arc.triangle)));
-  }
+  });
   FaceOrders orders{behind[0], Front(triangles_.size(), kUnreachable)};
   for (const Arc& arc : arcs) {
     std::uint32_t& least = orders.with_triangle[arc.triangle];
