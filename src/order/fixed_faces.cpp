@@ -81,9 +81,8 @@ std::vector<std::uint64_t> count_paths(const detail::FrontGraph& graph) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint64_t> paths(graph.front_count, 0);
   if (graph.empty_front) paths[*graph.empty_front] = 1;
-  for (auto arc = graph.arcs.rbegin(); arc != graph.arcs.rend(); ++arc) {
-    paths[arc->from] = std::min(kMost, paths[arc->from] + paths[arc->to]);
-  }
+  std::for_each(graph.arcs.rbegin(), graph.arcs.rend(),
+                [&](const auto& arc) { paths[arc.from] = std::min(kMost, paths[arc.from] + paths[arc.to]); });
   return paths;
 }
 
@@ -161,11 +160,11 @@ std::optional<std::int64_t> find_least_sum(const FixedFaces& faces, std::size_t 
   if (!graph || !graph->empty_front) return std::nullopt;
   std::vector<std::optional<std::int64_t>> behind(graph->front_count);
   behind[*graph->empty_front] = 0;
-  for (auto arc = graph->arcs.rbegin(); arc != graph->arcs.rend(); ++arc) {
-    if (!behind[arc->to]) continue;
-    const std::int64_t sum = *behind[arc->to] + weights[arc->triangle];
-    behind[arc->from] = behind[arc->from] ? std::min(*behind[arc->from], sum) : sum;
-  }
+  std::for_each(graph->arcs.rbegin(), graph->arcs.rend(), [&](const auto& arc) {
+    if (!behind[arc.to]) return;
+    const std::int64_t sum = *behind[arc.to] + weights[arc.triangle];
+    behind[arc.from] = behind[arc.from] ? std::min(*behind[arc.from], sum) : sum;
+  });
   return behind[0];
 }
 
