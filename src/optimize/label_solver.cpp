@@ -44,6 +44,7 @@ class Improver {
       const Eliminated<Criteria> best = eliminate(part, most_entries_, progress_);
       spent += best.table_entries;
       std::vector<std::uint32_t> now;
+      now.reserve(around.size());
       for (const std::uint32_t u : around) now.push_back(chosen_[u]);
       const bool gains = cost_of(part, best.chosen) < cost_of(part, now);
       since_gain = gains ? 0 : since_gain + 1;

@@ -262,10 +262,10 @@ class FaceRun {
     }
     for (std::uint32_t e = 0; e < faces_.edges.size() && !of_triangles; ++e) {
       if (e % 4096 == 0) progress_.check();
-      const bool fixed =
-          sides_.owner[2 * e] == FaceSides::kNoFace && sides_.owner[2 * e + 1] == FaceSides::kNoFace;
-      for (const std::uint32_t left : sides_.triangles.row(2 * e)) {
-        for (const std::uint32_t right : sides_.triangles.row(2 * e + 1)) {
+      const std::size_t one = std::size_t{2} * e, other = one + 1;
+      const bool fixed = sides_.owner[one] == FaceSides::kNoFace && sides_.owner[other] == FaceSides::kNoFace;
+      for (const std::uint32_t left : sides_.triangles.row(one)) {
+        for (const std::uint32_t right : sides_.triangles.row(other)) {
           note(level.of(corners[left], corners[right], scale_), fixed);
         }
       }

@@ -147,6 +147,7 @@ class PitTerms::Writer {
   void write_count(std::span<const std::uint32_t> nodes, std::span<const Literal> leaving,
                    const std::vector<const PitLink*>& inside) {
     std::vector<Literal> literals;
+    literals.reserve(inside.size() + leaving.size());
     for (const PitLink* link : inside) literals.push_back(link->when);
     for (const Literal& literal : leaving) {
       if (literal.variable != kNone) literals.push_back(literal);

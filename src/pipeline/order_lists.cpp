@@ -84,8 +84,7 @@ std::string conflict_list(std::span<const EdgeConflict> conflicts) {
 
 void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& progress) {
   const std::size_t count = result.max_order + 1;
-  for (std::size_t d = 0; d < kOrderDefinitions.size(); ++d) {
-    const OrderDefinition definition = kOrderDefinitions[d];
+  for (const OrderDefinition definition : kOrderDefinitions) {
     progress.start_phase("census under " + std::string(definition_name(definition)));
     std::vector<CensusRow> rows(count);
     for (std::size_t k = 0; k < count; ++k) rows[k] = {.definition = definition, .order = k};

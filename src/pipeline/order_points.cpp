@@ -102,6 +102,38 @@ nlohmann::ordered_json answer_json(const TriangleOrders& answer) {
   return json;
 }
 
+/// Where lists of an order are written; empty: not asked for.
+struct ListFiles {
+  std::string triangles, edges, conflicts;
+};
+
+void write_lists(const OrderConfig& config, const ListFiles& files, const ConstrainedOrder& orders,
+                 const Tin& tin, OrderResult& result, Progress& progress) {
+  if (files.triangles.empty() && files.edges.empty() && files.conflicts.empty()) return;
+  std::vector<OrderTriangle> triangles = find_order_triangles(
+      orders, {.definition = config.definition, .max_order = config.max_order}, progress);
+  if (!files.triangles.empty()) {
+    result.order_triangles = triangles.size();
+    write_list(files.triangles, config.triangles_path, triangle_list(triangles));
+  }
+  if (!files.conflicts.empty()) {
+    const auto faces = find_fixed_faces(tin, triangles, {}, progress);
+    const EdgeConflicts conflicts = faces ? find_edge_conflicts(*faces, {}, progress) : EdgeConflicts{};
+    result.conflicts = conflicts.pairs.size();
+    result.undecided_faces = conflicts.undecided_faces;
+    write_list(files.conflicts, config.conflicts_path, conflict_list(conflicts.pairs));
+  }
+  if (!files.edges.empty()) {
+    const std::vector<UsefulEdge> edges =
+        find_useful_edges(orders, std::move(triangles),
+                          {.definition = config.definition, .max_order = config.max_order}, progress);
+    result.useful_edges = edges.size();
+    result.unknown_edges = static_cast<std::size_t>(std::count_if(
+        edges.begin(), edges.end(), [](const UsefulEdge& edge) { return !edge.order.has_value(); }));
+    write_list(files.edges, config.edges_path, edge_list(edges));
+  }
+}
+
 }  // namespace
 
 OrderResult order_points(const OrderConfig& config, Progress& progress) {
@@ -131,30 +163,7 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   OrderWorkspace workspace;
   for (const auto& corners : config.triangles) result.asked.push_back(ask(orders, corners, workspace));
   if (!picture_file.empty()) draw_answer(orders, result.asked.front(), picture_file, config.picture_path);
-  if (!triangles_file.empty() || !edges_file.empty() || !conflicts_file.empty()) {
-    std::vector<OrderTriangle> triangles = find_order_triangles(
-        orders, {.definition = config.definition, .max_order = config.max_order}, progress);
-    if (!triangles_file.empty()) {
-      result.order_triangles = triangles.size();
-      write_list(triangles_file, config.triangles_path, triangle_list(triangles));
-    }
-    if (!conflicts_file.empty()) {
-      const auto faces = find_fixed_faces(ground.tin, triangles, {}, progress);
-      const EdgeConflicts conflicts = faces ? find_edge_conflicts(*faces, {}, progress) : EdgeConflicts{};
-      result.conflicts = conflicts.pairs.size();
-      result.undecided_faces = conflicts.undecided_faces;
-      write_list(conflicts_file, config.conflicts_path, conflict_list(conflicts.pairs));
-    }
-    if (!edges_file.empty()) {
-      const std::vector<UsefulEdge> edges =
-          find_useful_edges(orders, std::move(triangles),
-                            {.definition = config.definition, .max_order = config.max_order}, progress);
-      result.useful_edges = edges.size();
-      result.unknown_edges = static_cast<std::size_t>(std::count_if(
-          edges.begin(), edges.end(), [](const UsefulEdge& edge) { return !edge.order.has_value(); }));
-      write_list(edges_file, config.edges_path, edge_list(edges));
-    }
-  }
+  write_lists(config, {triangles_file, edges_file, conflicts_file}, orders, ground.tin, result, progress);
   if (!quadrilaterals_file.empty()) {
     const std::vector<Quadrilateral> quadrilaterals =
         find_quadrilaterals(ground.tin, {.definition = config.definition, .mode = ground.mode}, progress);

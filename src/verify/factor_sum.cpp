@@ -161,7 +161,7 @@ Index FactorSum::add_variable() {
   return static_cast<Index>(of_.size() - 1);
 }
 
-void FactorSum::add_factor(Factor factor) {
+void FactorSum::add_factor(const Factor& factor) {
   attach(sorted(factor));
 }
 

@@ -50,7 +50,7 @@ class FactorSum {
 
   /// A new variable in no factor.
   Index add_variable();
-  void add_factor(Factor factor);
+  void add_factor(const Factor& factor);
   /// A cost paid if q is true.
   void add_cost(Index q, const Cost& cost);
   /// Writes each factor of two variables as a constant, a cost of each variable when true, and a cost of both

@@ -244,8 +244,8 @@ class Machine {
 
 }  // namespace
 
-std::optional<std::vector<PlainQuadrilateral>> in_order_of(const Proof& proof,
-                                                           std::vector<PlainQuadrilateral> quadrilaterals) {
+std::optional<std::vector<PlainQuadrilateral>> in_order_of(
+    const Proof& proof, const std::vector<PlainQuadrilateral>& quadrilaterals) {
   if (proof.quadrilaterals.size() != quadrilaterals.size()) return std::nullopt;
   std::map<std::pair<Index, Index>, PlainQuadrilateral> by_diagonal;
   for (const PlainQuadrilateral& q : quadrilaterals) by_diagonal[std::minmax(q.u, q.v)] = q;

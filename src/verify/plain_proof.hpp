@@ -14,8 +14,8 @@
 namespace thalweg::verify {
 
 /// The quadrilaterals in the order of the proof; none if they are not the same.
-std::optional<std::vector<PlainQuadrilateral>> in_order_of(const Proof& proof,
-                                                           std::vector<PlainQuadrilateral> quadrilaterals);
+std::optional<std::vector<PlainQuadrilateral>> in_order_of(
+    const Proof& proof, const std::vector<PlainQuadrilateral>& quadrilaterals);
 
 /// What a stage shows.
 struct StageBound {

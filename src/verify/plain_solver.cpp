@@ -27,13 +27,13 @@ class Minimiser {
   std::optional<PlainOptimum> run() {
     fix_dominant();
     if (!eliminate_all()) return std::nullopt;
-    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+    std::for_each(steps_.rbegin(), steps_.rend(), [&](const auto& step) {
       std::size_t index = 0;
-      for (std::size_t i = 0; i < step->scope.size(); ++i) {
-        index |= static_cast<std::size_t>(label_[step->scope[i]]) << i;
+      for (std::size_t i = 0; i < step.scope.size(); ++i) {
+        index |= static_cast<std::size_t>(label_[step.scope[i]]) << i;
       }
-      label_[step->variable] = step->choice[index];
-    }
+      label_[step.variable] = step.choice[index];
+    });
     return PlainOptimum{sum_.constant(), std::move(label_)};
   }
 
