@@ -179,73 +179,85 @@ std::string to_json(const Report& report) {
 
 namespace {
 
-void add_rows(std::string& text, const Report& r) {
-  auto out = std::back_inserter(text);
-  const auto row = [&](std::string_view name, std::string_view value) {
-    fmt::format_to(out, "  {:<26}{:>16}\n", name, value);
-  };
-  const auto count = [&](std::string_view name, std::size_t value) { row(name, fmt::format("{}", value)); };
-  const auto count_if_any = [&](std::string_view name, std::size_t value) {
+/// Rows of a name and a value, aligned.
+class Rows {
+ public:
+  explicit Rows(std::string& text) : text_(text) {}
+  void title(std::string_view name) { text_ += fmt::format("{}\n", name); }
+  void row(std::string_view name, std::string_view value) {
+    text_ += fmt::format("  {:<26}{:>16}\n", name, value);
+  }
+  void count(std::string_view name, std::size_t value) { row(name, fmt::format("{}", value)); }
+  void count_if_any(std::string_view name, std::size_t value) {
     if (value > 0) count(name, value);
-  };
-  text += "Input\n";
-  count("points read", r.input.points_read);
-  count("points used", r.input.points_used);
-  count_if_any("duplicates merged", r.input.duplicates_merged);
-  count_if_any("outside the boundary", r.input.outside_boundary);
-  count_if_any("nodata skipped", r.input.nodata_skipped);
-  count_if_any("nodata holes bridged", r.input.nodata_holes_bridged);
-  count_if_any("lines read", r.input.breaklines_read);
-  count_if_any("line vertices", r.input.breakline_vertices);
-  count_if_any("crossings", r.input.crossings);
-  count_if_any("lakes", r.input.lakes);
-  count_if_any("points that lakes level", r.input.points_in_lakes);
-  count_if_any("height conflicts", r.conflicts.size());
-  text += "TIN\n";
-  count("vertices", r.tin.vertices);
-  count("triangles", r.tin.triangles);
-  count("constraint edges", r.tin.constraint_edges);
-  count_if_any("dropped rim triangles", r.tin.dropped_rim_triangles);
-  count_if_any("vertices left out", r.tin.vertices_left_out);
-  row("area, m2", fmt::format("{:.1f}", r.tin.area_m2));
-  row("smallest angle, degrees", fmt::format("{:.3f}", r.tin.min_angle_deg));
-  count("flat triangles", r.tin.flat_triangles);
+  }
+
+ private:
+  std::string& text_;
+};
+
+void add_surface(Rows rows, const Report& r) {
+  rows.title("Input");
+  rows.count("points read", r.input.points_read);
+  rows.count("points used", r.input.points_used);
+  rows.count_if_any("duplicates merged", r.input.duplicates_merged);
+  rows.count_if_any("outside the boundary", r.input.outside_boundary);
+  rows.count_if_any("nodata skipped", r.input.nodata_skipped);
+  rows.count_if_any("nodata holes bridged", r.input.nodata_holes_bridged);
+  rows.count_if_any("lines read", r.input.breaklines_read);
+  rows.count_if_any("line vertices", r.input.breakline_vertices);
+  rows.count_if_any("crossings", r.input.crossings);
+  rows.count_if_any("lakes", r.input.lakes);
+  rows.count_if_any("points that lakes level", r.input.points_in_lakes);
+  rows.count_if_any("height conflicts", r.conflicts.size());
+  rows.title("TIN");
+  rows.count("vertices", r.tin.vertices);
+  rows.count("triangles", r.tin.triangles);
+  rows.count("constraint edges", r.tin.constraint_edges);
+  rows.count_if_any("dropped rim triangles", r.tin.dropped_rim_triangles);
+  rows.count_if_any("vertices left out", r.tin.vertices_left_out);
+  rows.row("area, m2", fmt::format("{:.1f}", r.tin.area_m2));
+  rows.row("smallest angle, degrees", fmt::format("{:.3f}", r.tin.min_angle_deg));
+  rows.count("flat triangles", r.tin.flat_triangles);
   if (r.simplification) {
     const ReportSimplification& s = *r.simplification;
-    text += "Simplification\n";
-    row("stopped by", s.stopped_by);
-    count("source points", s.source_points);
-    count("vertices of lines, outline", s.fixed_vertices);
-    count("vertices inserted", s.inserted_vertices);
-    count("diagonals barred", s.barred_diagonals);
-    row("largest error, m", fmt::format("{:.4f}", s.largest_error_m[1]));
-    row("rms error, m", fmt::format("{:.4f}", s.rms_error_m[1]));
+    rows.title("Simplification");
+    rows.row("stopped by", s.stopped_by);
+    rows.count("source points", s.source_points);
+    rows.count("vertices of lines, outline", s.fixed_vertices);
+    rows.count("vertices inserted", s.inserted_vertices);
+    rows.count("diagonals barred", s.barred_diagonals);
+    rows.row("largest error, m", fmt::format("{:.4f}", s.largest_error_m[1]));
+    rows.row("rms error, m", fmt::format("{:.4f}", s.rms_error_m[1]));
   }
+}
+
+void add_structure(Rows rows, const Report& r) {
   if (r.higher_order) {
-    text += fmt::format("Structure at order {}\n", r.higher_order->order);
-    row("definition", r.higher_order->definition);
-    count("faces", r.higher_order->faces);
-    count_if_any("faces not listed whole", r.higher_order->partial_faces);
-    count("largest face, triangles", r.higher_order->largest_face);
-    count("labels", r.higher_order->labels);
-    count("most labels of a face", r.higher_order->most_labels);
-    count("new edges", r.higher_order->new_edges);
-    row("triangles by order", fmt::format("{}", fmt::join(r.higher_order->order_histogram, " ")));
-    count("fixed by elimination", r.higher_order->fixed_by_elimination);
-    count("pieces left", r.higher_order->pieces);
-    count("largest piece", r.higher_order->largest_piece);
-    count("width", r.higher_order->width);
+    rows.title(fmt::format("Structure at order {}", r.higher_order->order));
+    rows.row("definition", r.higher_order->definition);
+    rows.count("faces", r.higher_order->faces);
+    rows.count_if_any("faces not listed whole", r.higher_order->partial_faces);
+    rows.count("largest face, triangles", r.higher_order->largest_face);
+    rows.count("labels", r.higher_order->labels);
+    rows.count("most labels of a face", r.higher_order->most_labels);
+    rows.count("new edges", r.higher_order->new_edges);
+    rows.row("triangles by order", fmt::format("{}", fmt::join(r.higher_order->order_histogram, " ")));
+    rows.count("fixed by elimination", r.higher_order->fixed_by_elimination);
+    rows.count("pieces left", r.higher_order->pieces);
+    rows.count("largest piece", r.higher_order->largest_piece);
+    rows.count("width", r.higher_order->width);
     return;
   }
   if (r.first_order.definition.empty()) return;
-  text += "First-order structure\n";
-  row("definition", r.first_order.definition);
-  count("quadrilaterals", r.first_order.quadrilaterals);
-  count("flipped diagonals", r.first_order.flipped);
-  count("fixed by elimination", r.first_order.fixed_by_elimination);
-  count("pieces left", r.first_order.pieces);
-  count("largest piece", r.first_order.largest_piece);
-  count("width", r.first_order.width);
+  rows.title("First-order structure");
+  rows.row("definition", r.first_order.definition);
+  rows.count("quadrilaterals", r.first_order.quadrilaterals);
+  rows.count("flipped diagonals", r.first_order.flipped);
+  rows.count("fixed by elimination", r.first_order.fixed_by_elimination);
+  rows.count("pieces left", r.first_order.pieces);
+  rows.count("largest piece", r.first_order.largest_piece);
+  rows.count("width", r.first_order.width);
 }
 
 }  // namespace
@@ -253,7 +265,8 @@ void add_rows(std::string& text, const Report& r) {
 std::string to_text(const Report& r) {
   std::string text;
   auto out = std::back_inserter(text);
-  add_rows(text, r);
+  add_surface(Rows(text), r);
+  add_structure(Rows(text), r);
   fmt::format_to(out, "{:<28}{:>16}{:>16}{:>16}  {}\n", "Criteria", "Delaunay", "result", "bound", "proof");
   const auto number = [](const ReportCriterion& c, double value) {
     return c.unit == "count" ? fmt::format("{:.0f}", value) : fmt::format("{:.4f}", value);

@@ -87,12 +87,12 @@ int fail(std::string_view code, std::string_view message, int status) {
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
-    static const std::regex kChoice("ENUM:value in \\{([^}]*)\\} OR \\{[^}]*\\}");
-    static const std::regex kInside("->[^,]*");
+    static const std::regex choice("ENUM:value in \\{([^}]*)\\} OR \\{[^}]*\\}");
+    static const std::regex inside("->[^,]*");
     const std::string text = CLI::Formatter::make_option_opts(option);
     std::smatch found;
-    if (!std::regex_search(text, found, kChoice)) return text;
-    return found.prefix().str() + "{" + std::regex_replace(found[1].str(), kInside, "") + "}" +
+    if (!std::regex_search(text, found, choice)) return text;
+    return found.prefix().str() + "{" + std::regex_replace(found[1].str(), inside, "") + "}" +
            found.suffix().str();
   }
 };
