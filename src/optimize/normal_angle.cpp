@@ -23,13 +23,12 @@ struct Batch {
   Column dot, cross_squared, angle;
 };
 
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-#define THALWEG_CLONES __attribute__((target_clones("default", "avx2", "avx512f")))
-#else
-#define THALWEG_CLONES
+// The choice is made before sanitizers are ready.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
 #endif
-
-THALWEG_CLONES void find_angles(Batch& batch) {
+void find_angles(Batch& batch) {
   for (std::size_t i = 0; i < kBatch; ++i) {
     const double squared = batch.cross_squared[i], dot = batch.dot[i];
     batch.angle[i] = angle_of(dot, std::sqrt(squared));
