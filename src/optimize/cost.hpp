@@ -54,6 +54,14 @@ constexpr void add(Cost<Criteria>& cost, const Weight<Criteria>& weight) {
   for (std::size_t i = 0; i < Criteria; ++i) cost.level[i] += weight[i];
 }
 
+/// As comparing with an empty weight, but without a call of memcmp.
+template <std::size_t Criteria>
+constexpr bool is_zero(const Weight<Criteria>& weight) {
+  std::int64_t bits = 0;
+  for (const std::int64_t value : weight) bits |= value;
+  return bits == 0;
+}
+
 template <std::size_t Criteria>
 constexpr bool is_negative(const Weight<Criteria>& weight) {
   return weight < Weight<Criteria>{};

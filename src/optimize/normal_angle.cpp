@@ -1,7 +1,7 @@
-// Angles in batches.
+// Normals and angles in batches.
 //
-// A loop over arrays, without branches, so that the compiler makes it one of vector instructions; it is
-// compiled for several processors and chosen at run time. As in the scalar function all operations are
+// Loops over arrays, without branches, so that the compiler makes them ones of vector instructions; they are
+// compiled for several processors and chosen at run time. As in the scalar functions all operations are
 // rounded correctly and none is fused, so the bits are the same. Where the scalar function would scale its
 // normals, it is called.
 #include "optimize/normal_angle.hpp"
@@ -15,7 +15,7 @@ namespace thalweg {
 
 namespace {
 
-constexpr std::size_t kBatch = 512;
+constexpr std::size_t kBatch = 128;  // columns of a page each would share the cache's sets
 using Column = std::array<double, kBatch>;
 
 /// Cosine and sine of angles, but for a common factor.
@@ -35,7 +35,60 @@ void find_angles(Batch& batch) {
   }
 }
 
+/// The corners of triangles, in turn, and their normals.
+struct Corners {
+  std::array<Column, 3> x, y, z;
+  Column normal_x, normal_y, normal_z;
+};
+
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void find_normals_of(Corners& at, Scale scale) {
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double ax = at.x[0][i], bx = at.x[1][i], cx = at.x[2][i];
+    const double ay = at.y[0][i], by = at.y[1][i], cy = at.y[2][i];
+    const double az = at.z[0][i], bz = at.z[1][i], cz = at.z[2][i];
+    const bool b_a = (bx < ax) | ((bx == ax) & (by < ay));
+    const bool c_a = (cx < ax) | ((cx == ax) & (cy < ay));
+    const bool c_b = (cx < bx) | ((cx == bx) & (cy < by));
+    const bool b_first = b_a & !c_b, c_first = c_a & c_b;
+    const auto turned = [&](double a, double b, double c) { return b_first ? b : (c_first ? c : a); };
+    const double x = turned(ax, bx, cx), y = turned(ay, by, cy), z = turned(az, bz, cz);
+    const double px = (turned(bx, cx, ax) - x) * scale.horizontal;
+    const double qx = (turned(cx, ax, bx) - x) * scale.horizontal;
+    const double py = (turned(by, cy, ay) - y) * scale.horizontal;
+    const double qy = (turned(cy, ay, by) - y) * scale.horizontal;
+    const double pz = (turned(bz, cz, az) - z) * scale.vertical;
+    const double qz = (turned(cz, az, bz) - z) * scale.vertical;
+    at.normal_x[i] = py * qz - pz * qy;
+    at.normal_y[i] = pz * qx - px * qz;
+    at.normal_z[i] = px * qy - py * qx;
+  }
+}
+
 }  // namespace
+
+void find_normals(const Tin& tin, std::span<const Triangle> triangles, Scale scale,
+                  std::span<Vector3> normals) {
+  Corners at{};
+  for (std::size_t begin = 0; begin < triangles.size(); begin += kBatch) {
+    const std::size_t count = std::min(kBatch, triangles.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const VertexId v = triangles[begin + i][corner];
+        at.x[corner][i] = tin.point(v).x;
+        at.y[corner][i] = tin.point(v).y;
+        at.z[corner][i] = tin.height(v);
+      }
+    }
+    find_normals_of(at, scale);
+    for (std::size_t i = 0; i < count; ++i) {
+      normals[begin + i] = {at.normal_x[i], at.normal_y[i], at.normal_z[i]};
+    }
+  }
+}
 
 void angles_between(std::span<const Vector3> normals, std::span<const BodyPair> pairs,
                     std::span<double> angles) {

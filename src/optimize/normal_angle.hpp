@@ -7,6 +7,8 @@
 /// rounds correctly, so no mathematical library enters; (4) its error is below 1e-15 but for that of the
 /// normals themselves.
 
+#include <thalweg/mesh/tin.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -81,6 +83,11 @@ using BodyPair = std::array<std::uint32_t, 2>;
 /// Pre: as many angles as pairs.
 void angles_between(std::span<const Vector3> normals, std::span<const BodyPair> pairs,
                     std::span<double> angles);
+
+/// The normals that `make_face` gives triangles, the same bits, several at a time.
+/// Pre: as many normals as triangles.
+void find_normals(const Tin& tin, std::span<const Triangle> triangles, Scale scale,
+                  std::span<Vector3> normals);
 
 /// Throws: Error{SizeLimit}.
 [[noreturn]] void refuse_term(double value);

@@ -59,7 +59,7 @@ Labelling<Criteria> restrict_to(const Labelling<Criteria>& problem, const Reduct
     for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
       const std::uint32_t p = problem.neighbour[i];
       if (fixed.label[p] == Label::One) add(unary, problem.weight[i]);
-      if (fixed.label[p] != Label::Open || problem.weight[i] == Weight<Criteria>{}) continue;
+      if (fixed.label[p] != Label::Open || is_zero<Criteria>(problem.weight[i])) continue;
       row.emplace_back(selection.index[p], problem.weight[i]);
     }
     std::sort(row.begin(), row.end());

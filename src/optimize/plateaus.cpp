@@ -36,6 +36,7 @@
 #include <thalweg/base/assert.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace thalweg {
@@ -64,37 +65,39 @@ class Finder {
   }
 
  private:
-  [[nodiscard]] bool fixed(HalfedgeId h) const {
-    const std::uint32_t q = owner_[Tin::triangle_of(h).index()];
-    return q == kNone || (quadrilaterals_[q].diagonal != h && tin_.twin(quadrilaterals_[q].diagonal) != h);
-  }
+  /// Marks a vertex that is in ROOT by itself; several threads may do so.
+  void drain(VertexId v) { std::atomic_ref(node_[v.index()]).store(0, std::memory_order_relaxed); }
 
-  /// True if the vertex is in ROOT by itself; if not, its level neighbours are appended.
-  [[nodiscard]] bool drained(VertexId v, std::vector<VertexPair>& level) const {
-    const double height = tin_.height(v);
-    const std::size_t before = level.size();
-    bool drained = tin_.outgoing(v).empty();
-    for (const HalfedgeId h : tin_.outgoing(v)) {
-      if (drained) break;
-      drained = tin_.on_rim(h) || tin_.on_rim(Tin::previous(h));
-      if (!fixed(h)) continue;
-      const double across = tin_.height(tin_.target(h));
-      drained = drained || across < height || (across == height && has(tin_.kind(h), EdgeKind::Lake));
-      if (across == height) level.emplace_back(v.value(), tin_.target(h).value());
+  /// What an edge says of its ends; that both triangles have one owner means that it is a diagonal.
+  void look_at(HalfedgeId h, std::vector<VertexPair>& level) {
+    const HalfedgeId twin = tin_.twin(h);
+    if (twin.valid() && twin < h) return;
+    const VertexId a = tin_.origin(h), b = tin_.target(h);
+    if (!twin.valid()) {
+      drain(a);
+      drain(b);
+    } else if (const std::uint32_t q = owner_[Tin::triangle_of(h).index()];
+               q != kNone && q == owner_[Tin::triangle_of(twin).index()]) {
+      return;
     }
-    if (drained) level.resize(before);
-    return drained;
+    const double at_a = tin_.height(a), at_b = tin_.height(b);
+    if (at_a != at_b) return drain(at_a > at_b ? a : b);
+    level.emplace_back(a.value(), b.value());
+    if (!has(tin_.kind(h), EdgeKind::Lake)) return;
+    drain(a);
+    drain(b);
   }
 
   void look_around(const Progress& progress) {
-    const std::size_t count = tin_.vertex_count();
-    node_.assign(count, kNone);
+    const std::size_t count = tin_.halfedge_count();
+    node_.assign(tin_.vertex_count(), kNone);
     level_.resize((count + kBlock - 1) / kBlock);
     for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        if (drained(VertexId{v}, level_[begin / kBlock])) node_[v] = 0;
-      }
+      for (std::size_t h = begin; h < end; ++h) look_at(HalfedgeId{h}, level_[begin / kBlock]);
     });
+    for (std::size_t v = 0; v < node_.size(); ++v) {
+      if (tin_.outgoing(VertexId{v}).empty()) node_[v] = 0;
+    }
   }
 
   /// Unites level neighbours; the sets' numbers are those of their first vertices in order.
@@ -132,7 +135,7 @@ class Finder {
   std::span<const Quadrilateral> quadrilaterals_;
   std::span<const std::uint32_t> owner_;
   std::vector<std::uint32_t> node_;             ///< by vertex
-  std::vector<std::vector<VertexPair>> level_;  ///< by block of vertices
+  std::vector<std::vector<VertexPair>> level_;  ///< by block of halfedges
   std::uint32_t node_count_ = 1;
 };
 

@@ -211,7 +211,7 @@ Partition split(const Labelling<Criteria>& problem, const Reduction& reduction) 
     for (std::size_t i = parts.first.back(); i < parts.variable.size(); ++i) {
       const std::uint32_t q = parts.variable[i];
       for (std::size_t j = problem.first[q]; j < problem.first[q + 1]; ++j) {
-        if (problem.weight[j] != Weight<Criteria>{}) reach(problem.neighbour[j]);
+        if (!is_zero<Criteria>(problem.weight[j])) reach(problem.neighbour[j]);
       }
       for (const std::uint32_t t : problem.tables.of(q)) {
         if (std::exchange(table_reached[t], 1) != 0) continue;

@@ -25,7 +25,12 @@ struct Side {
 };
 
 /// Sides su, ut, tv, vs. Label 0 has triangles suv (sides 0 and 3) and vut, label 1 sut and tvs.
-std::array<Side, 4> sides_of(const Tin& tin, const Quadrilateral& quadrilateral);
+inline std::array<Side, 4> sides_of(const Tin& tin, const Quadrilateral& quadrilateral) {
+  const HalfedgeId uv = quadrilateral.diagonal;
+  const HalfedgeId vu = tin.twin(uv);
+  return {
+      {{Tin::previous(uv), true}, {Tin::next(vu), true}, {Tin::previous(vu), false}, {Tin::next(uv), false}}};
+}
 
 /// Two quadrilaterals with a common side, and where each stands in the row of the other.
 struct Neighbours {

@@ -30,13 +30,6 @@ std::vector<std::uint32_t> quadrilaterals_of_triangles(const Tin& tin,
   return owner;
 }
 
-std::array<Side, 4> sides_of(const Tin& tin, const Quadrilateral& quadrilateral) {
-  const HalfedgeId uv = quadrilateral.diagonal;
-  const HalfedgeId vu = tin.twin(uv);
-  return {
-      {{Tin::previous(uv), true}, {Tin::next(vu), true}, {Tin::previous(vu), false}, {Tin::next(uv), false}}};
-}
-
 double TermScan::left_on_rim(const Progress& progress) const {
   return reference_->squares_left_on_rim(faces_.tin, progress) * faces_.scale.vertical *
          faces_.scale.vertical;

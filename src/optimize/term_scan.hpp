@@ -5,6 +5,8 @@
 #include "base/parallel.hpp"
 #include "optimize/edge_batch.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <array>
 #include <span>
 #include <vector>
@@ -43,11 +45,11 @@ class TermScan {
     return declaration.triangle != nullptr ? declaration.triangle(face, faces_.scale)
                                            : declaration.against_reference(face, faces_.scale, *reference_);
   }
-  template <class Block>
-  void scan_triangle(TriangleId t, const Declaration& declaration, Block& block) const;
-  template <class Body, class Block>
-  void scan_edges(std::uint32_t begin, std::uint32_t end, const Declaration& declaration,
-                  std::span<const std::uint32_t> first, Block& block) const;
+  template <class Body, class Sink>
+  void scan_edges(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
+                  const Progress& progress) const;
+  template <class Sink>
+  void scan_triangles(const Declaration& declaration, Sink& sink, const Progress& progress) const;
 
   LabelledFaces faces_;
   const Reference* reference_;
@@ -56,49 +58,51 @@ class TermScan {
 template <class Sink>
 void TermScan::run(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
                    const Progress& progress) const {
+  if (declaration.of_angle != nullptr) {
+    scan_edges<Vector3>(declaration, first, sink, progress);
+  } else if (declaration.edge != nullptr) {
+    scan_edges<Face>(declaration, first, sink, progress);
+  } else {
+    scan_triangles(declaration, sink, progress);
+  }
+}
+
+template <class Body, class Sink>
+void TermScan::scan_edges(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
+                          const Progress& progress) const {
+  tbb::enumerable_thread_specific<EdgeBatch<Body>> batches(faces_, declaration, first);
   for_each_block(faces_.quadrilaterals.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     typename Sink::Block block(sink);
-    const auto from = static_cast<std::uint32_t>(begin), to = static_cast<std::uint32_t>(end);
-    if (declaration.of_angle != nullptr) {
-      scan_edges<Vector3>(from, to, declaration, first, block);
-    } else if (declaration.edge != nullptr) {
-      scan_edges<Face>(from, to, declaration, first, block);
-    } else {
-      for (std::uint32_t q = from; q < to; ++q) {
-        const HalfedgeId uv = faces_.quadrilaterals[q].diagonal;
-        const auto value = [&](const Face& a, const Face& b) {
-          return std::array{of_triangle(declaration, a), of_triangle(declaration, b)};
-        };
-        block.single(q, value(faces_.face(uv), faces_.face(faces_.tin.twin(uv))),
-                     value(faces_.flipped_face(q, true), faces_.flipped_face(q, false)));
-      }
+    batches.local().pass_quadrilaterals(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                                        block);
+  });
+  for_each_block(faces_.tin.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    typename Sink::Block block(sink);
+    batches.local().pass_triangles(begin, end, block);
+  });
+}
+
+template <class Sink>
+void TermScan::scan_triangles(const Declaration& declaration, Sink& sink, const Progress& progress) const {
+  const auto terms = [&](const Face& a, const Face& b) {
+    return std::array{of_triangle(declaration, a), of_triangle(declaration, b)};
+  };
+  for_each_block(faces_.quadrilaterals.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    typename Sink::Block block(sink);
+    for (std::size_t q = begin; q < end; ++q) {
+      const HalfedgeId uv = faces_.quadrilaterals[q].diagonal;
+      block.single(static_cast<std::uint32_t>(q), terms(faces_.face(uv), faces_.face(faces_.tin.twin(uv))),
+                   terms(faces_.flipped_face(q, true), faces_.flipped_face(q, false)));
     }
   });
   for_each_block(faces_.tin.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     typename Sink::Block block(sink);
-    for (std::size_t t = begin; t < end; ++t) scan_triangle(TriangleId{t}, declaration, block);
+    for (std::size_t t = begin; t < end; ++t) {
+      if (faces_.owner[t] != kNone) continue;
+      block.constant(of_triangle(declaration, faces_.face(Tin::halfedge(TriangleId{t}, 0))));
+    }
   });
   if (declaration.against_reference != nullptr) typename Sink::Block(sink).constant(left_on_rim(progress));
-}
-
-template <class Block>
-void TermScan::scan_triangle(TriangleId t, const Declaration& declaration, Block& block) const {
-  if (faces_.owner[t.index()] != kNone) return;
-  if (declaration.traits.coupling == Coupling::OneTriangle) {
-    block.constant(of_triangle(declaration, faces_.face(Tin::halfedge(t, 0))));
-    return;
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const HalfedgeId h = Tin::halfedge(t, i);
-    if (faces_.tin.on_rim(h) || !faces_.tin.represents_edge(h) || faces_.owner_across(h) != kNone) continue;
-    block.constant(declaration.of_edge(faces_.face(h), faces_.face(faces_.tin.twin(h)), faces_.scale));
-  }
-}
-
-template <class Body, class Block>
-void TermScan::scan_edges(std::uint32_t begin, std::uint32_t end, const Declaration& declaration,
-                          std::span<const std::uint32_t> first, Block& block) const {
-  EdgeBatch<Body>(faces_, begin, end, first).pass_to(block, declaration);
 }
 
 }  // namespace thalweg

@@ -3,11 +3,11 @@
 
 #include "base/parallel.hpp"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
+#include <utility>
 
 namespace thalweg {
 
@@ -29,38 +29,91 @@ std::int64_t tie_of(std::uint64_t rank, std::size_t count) {
   return static_cast<std::int64_t>(splitmix64(rank) >> (64 - bits));
 }
 
+namespace {
+
+/// Numbers 0 to n - 1 put into buckets, in order within each.
+struct Buckets {
+  std::vector<std::uint32_t> first, item;
+};
+
+Buckets sort_into_buckets(std::span<const std::uint32_t> bucket, std::size_t buckets) {
+  Buckets sorted{std::vector<std::uint32_t>(buckets + 1, 0), std::vector<std::uint32_t>(bucket.size())};
+  for (const std::uint32_t b : bucket) ++sorted.first[b + 1];
+  std::partial_sum(sorted.first.begin(), sorted.first.end(), sorted.first.begin());
+  std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
+  for (std::uint32_t i = 0; i < bucket.size(); ++i) sorted.item[next[bucket[i]]++] = i;
+  return sorted;
+}
+
+/// Quadrilaterals in the order of their corners.
+class CornerOrder {
+ public:
+  CornerOrder(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, const Progress& progress)
+      : tin_(tin), quadrilaterals_(quadrilaterals), progress_(progress) {}
+
+  /// Buckets by the x of the lowest corner. Rounding is monotone, so what falls into a later bucket is not
+  /// before what falls into an earlier one; within a bucket the order is not made yet.
+  [[nodiscard]] Buckets buckets() const {
+    const auto [least, most] = std::minmax_element(tin_.points().begin(), tin_.points().end());
+    const std::size_t count = quadrilaterals_.size(), most_buckets = count / 2 + 1;
+    const double low = least->x, width = most->x - low;
+    const double per_unit = width > 0 ? static_cast<double>(most_buckets - 1) / width : 0;
+    std::vector<std::uint32_t> bucket(count);
+    for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t q = begin; q < end; ++q) {
+        const double place = (lowest(static_cast<std::uint32_t>(q)).x - low) * per_unit;
+        bucket[q] = static_cast<std::uint32_t>(std::min(place, static_cast<double>(most_buckets - 1)));
+      }
+    });
+    return sort_into_buckets(bucket, most_buckets);
+  }
+
+  void sort(std::span<std::uint32_t> items, std::vector<std::pair<Point2, std::uint32_t>>& keys) const {
+    if (items.size() < 2) return;
+    keys.clear();
+    for (const std::uint32_t q : items) keys.emplace_back(lowest(q), q);
+    std::sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
+      if (a.first != b.first) return a.first < b.first;
+      return a.second != b.second && corners(a.second) < corners(b.second);
+    });
+    for (std::size_t i = 0; i < items.size(); ++i) items[i] = keys[i].second;
+  }
+
+ private:
+  [[nodiscard]] Point2 lowest(std::uint32_t q) const {
+    const auto& [s, u, t, v, diagonal] = quadrilaterals_[q];
+    return std::min({tin_.point(s), tin_.point(u), tin_.point(t), tin_.point(v)});
+  }
+  [[nodiscard]] std::array<Point2, 4> corners(std::uint32_t q) const {
+    const auto& [s, u, t, v, diagonal] = quadrilaterals_[q];
+    std::array<Point2, 4> sorted = {tin_.point(s), tin_.point(u), tin_.point(t), tin_.point(v)};
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  }
+
+  const Tin& tin_;
+  std::span<const Quadrilateral> quadrilaterals_;
+  const Progress& progress_;
+};
+
+}  // namespace
+
 template <std::size_t Criteria>
 std::vector<std::uint32_t> add_flips_and_ties(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                               std::vector<Cost<Criteria>>& unary, const Progress& progress) {
-  using Corners = std::array<Point2, 4>;
-  const auto sorted_corners = [&](std::uint32_t q) {
-    const auto& [s, u, t, v, diagonal] = quadrilaterals[q];
-    Corners corners = {tin.point(s), tin.point(u), tin.point(t), tin.point(v)};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-  };
-  struct Key {
-    Point2 lowest;
-    std::uint32_t quadrilateral;
-  };
   const std::size_t count = quadrilaterals.size();
-  std::vector<Key> keys(count);
-  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t q = begin; q < end; ++q) {
-      const auto& [s, u, t, v, diagonal] = quadrilaterals[q];
-      keys[q] = {std::min({tin.point(s), tin.point(u), tin.point(t), tin.point(v)}),
-                 static_cast<std::uint32_t>(q)};
-    }
-  });
-  tbb::parallel_sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-    if (a.lowest != b.lowest) return a.lowest < b.lowest;
-    return a.quadrilateral != b.quadrilateral &&
-           sorted_corners(a.quadrilateral) < sorted_corners(b.quadrilateral);
-  });
   std::vector<std::uint32_t> rank(count);
-  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t r = begin; r < end; ++r) {
-      const std::uint32_t q = keys[r].quadrilateral;
+  if (count == 0) return rank;
+  const CornerOrder order(tin, quadrilaterals, progress);
+  Buckets sorted = order.buckets();
+  for_each_block(sorted.first.size() - 1, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::pair<Point2, std::uint32_t>> keys;
+    for (std::size_t b = begin; b < end; ++b) {
+      order.sort(std::span(sorted.item).subspan(sorted.first[b], sorted.first[b + 1] - sorted.first[b]),
+                 keys);
+    }
+    for (std::size_t r = sorted.first[begin]; r < sorted.first[end]; ++r) {
+      const std::uint32_t q = sorted.item[r];
       rank[q] = static_cast<std::uint32_t>(r);
       unary[q].level[Criteria] = 1;
       unary[q].level[Criteria + 1] = tie_of(r, count);

@@ -26,6 +26,7 @@
 // then both
 //    triangles must pass the Std flood as well.
 #include "base/parallel.hpp"
+#include "order/quadrilateral_filter.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/constrained_order.hpp>
@@ -33,8 +34,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
-#include <optional>
 
 namespace thalweg {
 
@@ -47,22 +49,30 @@ class QuadrilateralSearch {
   QuadrilateralSearch(const Tin& tin, const QuadrilateralOptions& options)
       : tin_(tin), definition_(options.definition), order_(tin, options.mode) {}
 
-  [[nodiscard]] std::optional<Quadrilateral> at(HalfedgeId h, OrderWorkspace& workspace) const;
+  [[nodiscard]] bool is_quadrilateral(const EdgeSurroundings& edge, OrderWorkspace& workspace) const;
   [[nodiscard]] bool delaunay_fits(TriangleId t, OrderWorkspace& workspace) const {
     return order_.at_most(tin_.triangle(t), OrderDefinition::Std, 1, workspace);
   }
   [[nodiscard]] bool unconstrained() const { return order_.unconstrained(); }
 
  private:
-  enum class Verdict { Fits, Refused, Unclear };
-  [[nodiscard]] Verdict judge(const Triangle& corners, VertexId inner) const;
-  [[nodiscard]] bool refused_across(const Triangle& corners, HalfedgeId side) const;
-  [[nodiscard]] Verdict weigh(const Triangle& corners, VertexId x) const;
-  [[nodiscard]] bool inside(const Triangle& corners, VertexId x) const {
-    return in_circle_perturbed(tin_.point(corners[0]), tin_.point(corners[1]), tin_.point(corners[2]),
-                               tin_.point(x));
+  enum class Verdict { Fits, Unclear, Refused };
+  /// One of the new triangles, sut or tvs.
+  struct Half {
+    Triangle corners;
+    VertexId inner;                  ///< the corner that it leaves out
+    HalfedgeId side, last;           ///< of the inner vertex: to corners[0], from corners[2]; or the reverse
+    std::array<VertexId, 2> beyond;  ///< the vertices across them
+    std::array<std::int8_t, 2> inside;
+  };
+  static bool is_corner(const Half& half, VertexId x) {
+    return x == half.corners[0] || x == half.corners[1] || x == half.corners[2];
   }
-  [[nodiscard]] bool fits(const Triangle& corners, VertexId inner, OrderWorkspace& workspace) const;
+  [[nodiscard]] Verdict judge_beyond(const Half& half) const;
+  [[nodiscard]] Verdict judge_others(const Half& half) const;
+  [[nodiscard]] Verdict judge(const Half& half, VertexId x) const;
+  [[nodiscard]] Verdict weigh(const Triangle& corners, VertexId x) const;
+  [[nodiscard]] bool fits(const Half& half, Verdict beyond, OrderWorkspace& workspace) const;
 
   const Tin& tin_;
   OrderDefinition definition_;
@@ -78,55 +88,87 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::weigh(const Triangle& corners,
   return beyond_st && order_.sees(x, corners[1]) ? Verdict::Refused : Verdict::Unclear;
 }
 
-// Whether the vertex across a side of the quadrilateral that ends at the inner vertex is enough to refuse.
-bool QuadrilateralSearch::refused_across(const Triangle& corners, HalfedgeId side) const {
-  const HalfedgeId outer = tin_.twin(side);
-  if (!outer.valid()) return false;
-  const VertexId x = tin_.apex(outer);
-  if (x == corners[0] || x == corners[1] || x == corners[2]) return false;
-  return inside(corners, x) && weigh(corners, x) == Verdict::Refused;
-}
-
-// Triangle s u t with v inside its circle.
-QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Triangle& corners, VertexId inner) const {
-  const auto is_corner = [&](VertexId x) { return x == corners[0] || x == corners[1] || x == corners[2]; };
-  bool unclear = false;
-  const auto refuses = [&](VertexId x) {
-    if (is_corner(x) || !inside(corners, x)) return false;
-    const Verdict verdict = weigh(corners, x);
-    unclear = unclear || verdict == Verdict::Unclear;
-    return verdict == Verdict::Refused;
-  };
-  for (const HalfedgeId h : tin_.outgoing(inner)) {
-    if (refuses(tin_.target(h)) || (tin_.on_rim(Tin::previous(h)) && refuses(tin_.apex(h)))) {
-      return Verdict::Refused;
-    }
+// The vertices across the two sides at the inner vertex.
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge_beyond(const Half& half) const {
+  Verdict worst = Verdict::Fits;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (half.inside[i] == kOutside) continue;
+    worst = std::max(worst, half.inside[i] == kInside && !is_corner(half, half.beyond[i])
+                                ? weigh(half.corners, half.beyond[i])
+                                : judge(half, half.beyond[i]));
+    if (worst == Verdict::Refused) break;
   }
-  return unclear ? Verdict::Unclear : Verdict::Fits;
+  return worst;
 }
 
-bool QuadrilateralSearch::fits(const Triangle& corners, VertexId inner, OrderWorkspace& workspace) const {
-  const Verdict verdict = judge(corners, inner);
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Half& half, VertexId x) const {
+  const auto& [a, b, c] = half.corners;
+  if (is_corner(half, x) ||
+      !in_circle_perturbed(tin_.point(a), tin_.point(b), tin_.point(c), tin_.point(x))) {
+    return Verdict::Fits;
+  }
+  return weigh(half.corners, x);
+}
+
+// The other neighbours of the inner vertex: from the triangle across one side, turn by turn, to that across
+// the other. On the rim, where there may be gaps, all are asked.
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge_others(const Half& half) const {
+  Verdict worst = Verdict::Fits;
+  const auto refuses = [&](VertexId x) {
+    if (x != half.beyond[0] && x != half.beyond[1]) worst = std::max(worst, judge(half, x));
+    return worst == Verdict::Refused;
+  };
+  const HalfedgeId end = tin_.twin(half.last);
+  HalfedgeId outer = tin_.twin(half.side);
+  while (outer.valid()) {
+    const HalfedgeId spoke = Tin::next(outer);
+    if (spoke == end) return worst;
+    if (refuses(tin_.target(spoke))) return worst;
+    outer = tin_.twin(spoke);
+  }
+  for (const HalfedgeId h : tin_.outgoing(half.inner)) {
+    if (refuses(tin_.target(h)) || (tin_.on_rim(Tin::previous(h)) && refuses(tin_.apex(h)))) break;
+  }
+  return worst;
+}
+
+bool QuadrilateralSearch::fits(const Half& half, Verdict beyond, OrderWorkspace& workspace) const {
+  const Verdict verdict = std::max(beyond, judge_others(half));
   if (verdict == Verdict::Refused) return false;
   const bool decided =
       verdict == Verdict::Fits && (definition_ != OrderDefinition::Std || order_.unconstrained());
-  return decided || order_.at_most(corners, definition_, 1, workspace);
+  return decided || order_.at_most(half.corners, definition_, 1, workspace);
 }
 
-std::optional<Quadrilateral> QuadrilateralSearch::at(HalfedgeId h, OrderWorkspace& workspace) const {
-  const HalfedgeId twin = tin_.twin(h);
-  if (!twin.valid() || twin < h || tin_.constrained(h)) return std::nullopt;
-  const Quadrilateral q{tin_.apex(h), tin_.origin(h), tin_.apex(twin), tin_.origin(twin), h};
-  const Point2 s = tin_.point(q.s);
-  const Point2 t = tin_.point(q.t);
-  if (orientation(s, tin_.point(q.u), t) <= 0 || orientation(t, tin_.point(q.v), s) <= 0) return std::nullopt;
-  const Triangle at_u{q.s, q.u, q.t}, at_v{q.t, q.v, q.s};
-  if (refused_across(at_u, Tin::next(h)) || refused_across(at_u, Tin::previous(twin)) ||
-      refused_across(at_v, Tin::next(twin)) || refused_across(at_v, Tin::previous(h))) {
-    return std::nullopt;
+bool QuadrilateralSearch::is_quadrilateral(const EdgeSurroundings& edge, OrderWorkspace& workspace) const {
+  const auto& [s, u, t, v, h] = edge.quadrilateral;
+  const auto& [vs, tv, ut, su] = edge.sides;
+  const auto& beyond = edge.beyond;
+  const Half at_u{{s, u, t}, v, vs, tv, {beyond[0], beyond[1]}, {edge.inside[0], edge.inside[1]}};
+  const Verdict beyond_v = judge_beyond(at_u);
+  if (beyond_v == Verdict::Refused) return false;
+  const Half at_v{{t, v, s}, u, ut, su, {beyond[2], beyond[3]}, {edge.inside[2], edge.inside[3]}};
+  const Verdict beyond_u = judge_beyond(at_v);
+  if (beyond_u == Verdict::Refused) return false;
+  return fits(at_u, beyond_v, workspace) && fits(at_v, beyond_u, workspace);
+}
+
+// The quadrilaterals of a range of halfedges.
+void find_among(const QuadrilateralSearch& search, const Tin& tin, std::size_t begin, std::size_t end,
+                OrderWorkspace& workspace, std::vector<Quadrilateral>& found) {
+  QuadrilateralFilter filter(tin);
+  std::array<HalfedgeId, QuadrilateralFilter::kMost> edges;
+  for (std::size_t h = begin; h < end;) {
+    std::size_t count = 0;
+    for (; h < end && count < edges.size(); ++h) {
+      const HalfedgeId twin = tin.twin(HalfedgeId{h});
+      if (twin.valid() && HalfedgeId{h} < twin && !tin.constrained(HalfedgeId{h}))
+        edges[count++] = HalfedgeId{h};
+    }
+    for (const EdgeSurroundings& edge : filter.look(std::span(edges).first(count))) {
+      if (search.is_quadrilateral(edge, workspace)) found.push_back(edge.quadrilateral);
+    }
   }
-  if (!fits(at_u, q.v, workspace) || !fits(at_v, q.u, workspace)) return std::nullopt;
-  return q;
 }
 
 }  // namespace
@@ -147,11 +189,7 @@ std::vector<Quadrilateral> find_quadrilaterals(const Tin& ground, const Quadrila
 
   std::vector<std::vector<Quadrilateral>> found(ground.halfedge_count() / kBlock + 1);
   for_each_block(ground.halfedge_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    std::vector<Quadrilateral>& here = found[begin / kBlock];
-    OrderWorkspace& workspace = workspaces.local();
-    for (std::size_t h = begin; h < end; ++h) {
-      if (const auto q = search.at(HalfedgeId{h}, workspace)) here.push_back(*q);
-    }
+    find_among(search, ground, begin, end, workspaces.local(), found[begin / kBlock]);
   });
   std::vector<Quadrilateral> all;
   std::size_t total = 0;
