@@ -12,13 +12,14 @@
 // 4. A group's name is its smallest index; groups are numbered in order of their names.
 #include "merge.hpp"
 
+#include "base/buckets.hpp"
+#include "base/parallel.hpp"
 #include "noding.hpp"
 #include "provenance.hpp"
 
 #include <thalweg/base/error.hpp>
 
 #include <fmt/format.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,7 @@ namespace thalweg {
 namespace {
 
 constexpr double kLargest = 1e15;
+constexpr std::size_t kBlock = 4096;  // buckets that a thread takes at once
 
 struct Placed {
   Point2 xy;
@@ -144,24 +146,40 @@ std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const 
   return others;
 }
 
+// The positions from `first` on, sorted.
+std::vector<Placed> sort_places(std::span<const Point2> positions, std::size_t first,
+                                const Progress& progress) {
+  const std::size_t count = positions.size();
+  if (count == 0) return {};
+  const auto [least, most] = std::minmax_element(positions.begin(), positions.end());
+  const std::size_t bucket_count = count / 2 + 1;
+  const BucketOfCoordinate bucket_of(least->x, most->x, bucket_count);
+  std::vector<std::uint32_t> bucket(count);
+  for (std::size_t i = 0; i < count; ++i) bucket[i] = bucket_of(positions[i].x);
+  Buckets buckets = sort_into_buckets(bucket, bucket_count);
+  std::vector<Placed> placed(count);
+  for_each_block(buckets.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto from = placed.begin() + buckets.first[b];
+      auto to = from;
+      for (const std::uint32_t i : buckets.items(b)) {
+        *to++ = {positions[i], static_cast<std::uint32_t>(first + i)};
+      }
+      std::sort(from, to);
+    }
+  });
+  return placed;
+}
+
 // For each index the index whose position it takes.
 std::vector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
-                                                double snap, double line_snap) {
-  std::vector<Placed> placed(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) placed[i] = {all[i], static_cast<std::uint32_t>(i)};
+                                                double snap, double line_snap, const Progress& progress) {
   std::vector<std::uint32_t> representative(all.size());
-  if (point_count == all.size() && !(snap > 0)) {
-    tbb::parallel_sort(placed.begin(), placed.end());
-    merge_in_order(placed, 0, representative);
-    return representative;
-  }
-  const auto border = placed.begin() + static_cast<std::ptrdiff_t>(point_count);
-  tbb::parallel_sort(placed.begin(), border);
-  tbb::parallel_sort(border, placed.end());
-  const std::vector<Placed> points = merge_in_order(std::span(placed.begin(), border), snap, representative);
-  const std::vector<Placed> others =
-      join_points(std::span(border, placed.end()), points, line_snap, representative);
-  merge_in_order(others, line_snap, representative);
+  const std::vector<Placed> points =
+      merge_in_order(sort_places(all.first(point_count), 0, progress), snap, representative);
+  if (point_count == all.size()) return representative;
+  const std::vector<Placed> vertices = sort_places(all.subspan(point_count), point_count, progress);
+  merge_in_order(join_points(vertices, points, line_snap, representative), line_snap, representative);
   return representative;
 }
 
@@ -184,8 +202,8 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
     }
   }
   merged.pixel = snapping_pixel(all, options.resolution);
-  const std::vector<std::uint32_t> representative =
-      find_representatives(all, point_count, options.snap, std::max(options.snap, merged.pixel / 4));
+  const std::vector<std::uint32_t> representative = find_representatives(
+      all, point_count, options.snap, std::max(options.snap, merged.pixel / 4), progress);
   progress.advance(0.5);
 
   const auto origin_of = [&](std::uint32_t i) {

@@ -114,7 +114,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const P
                   static_cast<std::uint32_t>(i)};
     }
   });
-  sort_by_key(keyed, progress);
+  if (!std::is_sorted(keyed.begin(), keyed.end())) sort_by_key(keyed, progress);
   std::vector<std::uint32_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
   return order;

@@ -1,12 +1,12 @@
 // Ranks by coordinates alone, and what they cost.
 #include "optimize/ties.hpp"
 
+#include "base/buckets.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 #include <utility>
 
 namespace thalweg {
@@ -31,41 +31,24 @@ std::int64_t tie_of(std::uint64_t rank, std::size_t count) {
 
 namespace {
 
-/// Numbers 0 to n - 1 put into buckets, in order within each.
-struct Buckets {
-  std::vector<std::uint32_t> first, item;
-};
-
-Buckets sort_into_buckets(std::span<const std::uint32_t> bucket, std::size_t buckets) {
-  Buckets sorted{std::vector<std::uint32_t>(buckets + 1, 0), std::vector<std::uint32_t>(bucket.size())};
-  for (const std::uint32_t b : bucket) ++sorted.first[b + 1];
-  std::partial_sum(sorted.first.begin(), sorted.first.end(), sorted.first.begin());
-  std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
-  for (std::uint32_t i = 0; i < bucket.size(); ++i) sorted.item[next[bucket[i]]++] = i;
-  return sorted;
-}
-
 /// Quadrilaterals in the order of their corners.
 class CornerOrder {
  public:
   CornerOrder(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, const Progress& progress)
       : tin_(tin), quadrilaterals_(quadrilaterals), progress_(progress) {}
 
-  /// Buckets by the x of the lowest corner. Rounding is monotone, so what falls into a later bucket is not
-  /// before what falls into an earlier one; within a bucket the order is not made yet.
+  /// By the x of the lowest corner; within a bucket the order is not made yet.
   [[nodiscard]] Buckets buckets() const {
     const auto [least, most] = std::minmax_element(tin_.points().begin(), tin_.points().end());
-    const std::size_t count = quadrilaterals_.size(), most_buckets = count / 2 + 1;
-    const double low = least->x, width = most->x - low;
-    const double per_unit = width > 0 ? static_cast<double>(most_buckets - 1) / width : 0;
+    const std::size_t count = quadrilaterals_.size();
+    const BucketOfCoordinate bucket_of(least->x, most->x, count / 2 + 1);
     std::vector<std::uint32_t> bucket(count);
     for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) {
-        const double place = (lowest(static_cast<std::uint32_t>(q)).x - low) * per_unit;
-        bucket[q] = static_cast<std::uint32_t>(std::min(place, static_cast<double>(most_buckets - 1)));
+        bucket[q] = bucket_of(lowest(static_cast<std::uint32_t>(q)).x);
       }
     });
-    return sort_into_buckets(bucket, most_buckets);
+    return sort_into_buckets(bucket, count / 2 + 1);
   }
 
   void sort(std::span<std::uint32_t> items, std::vector<std::pair<Point2, std::uint32_t>>& keys) const {
@@ -106,12 +89,9 @@ std::vector<std::uint32_t> add_flips_and_ties(const Tin& tin, std::span<const Qu
   if (count == 0) return rank;
   const CornerOrder order(tin, quadrilaterals, progress);
   Buckets sorted = order.buckets();
-  for_each_block(sorted.first.size() - 1, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+  for_each_block(sorted.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<Point2, std::uint32_t>> keys;
-    for (std::size_t b = begin; b < end; ++b) {
-      order.sort(std::span(sorted.item).subspan(sorted.first[b], sorted.first[b + 1] - sorted.first[b]),
-                 keys);
-    }
+    for (std::size_t b = begin; b < end; ++b) order.sort(sorted.items(b), keys);
     for (std::size_t r = sorted.first[begin]; r < sorted.first[end]; ++r) {
       const std::uint32_t q = sorted.item[r];
       rank[q] = static_cast<std::uint32_t>(r);
