@@ -130,6 +130,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 void add_common_options(CLI::App& command, Common& common) {
+  command.set_version_flag("--version", "thalweg " + version());
   command.add_flag("-q,--quiet", common.quiet, "no progress and no summary; only errors");
   command.add_flag("--progress", common.progress, "draw progress also where stderr is no terminal");
   command.add_option("-f,--format", common.format, "what is printed: text or json")
