@@ -7,8 +7,10 @@
 // vertices:
 //    each sight line that they ask for lies in the disc, and joins the vertex to the interior of the
 //    triangle. In particular none of them counts beyond a side that blocks, and no such vertex is reached.
-// 3. SeesOpp: a walk to the opposite vertex. It runs through the triangle, for the part of the disc
-//    beyond a side is a cap that can be left only through that side.
+// 3. SeesOpp: what the corners see through the sides across from them (corner_views.cpp); where that takes
+//    long, a flood, and a walk to the opposite vertex. It runs through the triangle, for the part of the disc
+//    beyond a side is a cap that can be left only through that side. Sees3vtx and EmptyQuad count some of
+//    what SeesOpp counts.
 // 4. SeesTriang: seeing the opposite vertex is enough; else the gaps of the view decide (sights.cpp).
 //    SeesVtx: also a walk to one of the corners.
 // 5. ConfEdge: p counts if it sees the opposite vertex, or a vertex r in the cap of another side: from cap to
@@ -19,6 +21,7 @@
 // 7. Sees3vtx: three walks. EmptyQuad: exactly the p for which uvp is a valid triangle: then up and pv are
 // free or
 //    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
+#include "order/corner_views.hpp"
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
 #include "order/point_grid.hpp"
@@ -40,6 +43,7 @@ struct OrderWorkspace::Parts {
   detail::Occupancy occupancy;
   detail::SideSight side_sight;
   detail::SweepCount sweeps;
+  detail::CornerViews views;
   std::vector<VertexId> undecided;
   std::vector<VertexId> counted;
 };
@@ -151,14 +155,36 @@ void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
   });
 }
 
+// As count, for the definitions that only count what the opposite corner sees. False if that takes too long,
+// or does not help.
+bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
+                                      OrderWorkspace& workspace) const {
+  const Ground& ground = parts_->ground;
+  auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
+  const bool seen_alone = definition == OrderDefinition::SeesOpp;
+  if (!ground.any_blocks()) return false;
+  if (!seen_alone && definition != OrderDefinition::Sees3vtx && definition != OrderDefinition::EmptyQuad) {
+    return false;
+  }
+  counted.clear();
+  views.start(ground, corners);
+  while (const auto p = views.next()) {
+    if (!seen_alone && !counts_alone(ground, corners, *p, definition, side_sight, occupancy)) continue;
+    counted.push_back(*p);
+    if (counted.size() > limit) return true;
+  }
+  return !views.gave_up();
+}
+
 // Leaves the vertices counted in the workspace; stops when there are more than `limit`.
 void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
                              OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
-  auto& [flood, occupancy, side_sight, sweeps, undecided, counted] = *workspace.parts_;
-  counted.clear();
+  auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
   undecided.clear();
   const Triangle corners = counter_clockwise(ground, triangle);
+  if (count_by_views(corners, definition, limit, workspace)) return;
+  counted.clear();
   if (definition == OrderDefinition::Std && parts_->grid) return count_in_grid(corners, limit, counted);
   const auto start = ground.face_in_angle(corners[0], corners[1], corners[2]);
   THALWEG_ASSERT(start.has_value());

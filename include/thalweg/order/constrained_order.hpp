@@ -110,6 +110,8 @@ class ConstrainedOrder {
   struct Parts;
   void count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
              OrderWorkspace& workspace) const;
+  bool count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
+                      OrderWorkspace& workspace) const;
   void count_in_grid(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
 
   std::unique_ptr<Parts> parts_;
