@@ -21,6 +21,9 @@
 // 7. Sees3vtx: three walks. EmptyQuad: exactly the p for which uvp is a valid triangle: then up and pv are
 // free or
 //    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
+// 8. Of order 0 or 1, SeesVtx counts what SeesTriang does, and SeesOpp what ConfEdge does (Lemmas 5 and 6).
+//    So up to a limit of 1 the corners' views decide these, too; a vertex that an end of a side sees, and not
+//    the corner opposite, is asked for the side.
 #include "order/corner_views.hpp"
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
@@ -62,6 +65,9 @@ namespace {
 
 /// Vertices inside up to which pairs are tested; the experiment: tests/bench/order/sweeps.md.
 constexpr std::size_t kMostPairs = 256;
+
+/// Up to this limit the list of what is counted is searched.
+constexpr std::size_t kMostSearched = 64;
 
 /// A vertex beyond one side of a triangle: u and v are the side's ends, the triangle to its left; w is
 /// opposite.
@@ -107,6 +113,18 @@ bool counts_alone(const Ground& ground, const Triangle& corners, VertexId p, Ord
              TriangleFault::None;
   }
   return false;
+}
+
+/// The weakest definition that counts the same vertices where it counts at most one (preamble, 8).
+OrderDefinition same_up_to_one(OrderDefinition definition) {
+  switch (definition) {
+    case OrderDefinition::SeesTriang:
+      return OrderDefinition::SeesVtx;
+    case OrderDefinition::ConfEdge:
+      return OrderDefinition::SeesOpp;
+    default:
+      return definition;
+  }
 }
 
 }  // namespace
@@ -155,22 +173,26 @@ void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
   });
 }
 
-// As count, for the definitions that only count what the opposite corner sees. False if that takes too long,
-// or does not help.
+// As count, by what the corners see. False if that takes too long, or does not help.
 bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                                       OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
   auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
-  const bool seen_alone = definition == OrderDefinition::SeesOpp;
   if (!ground.any_blocks()) return false;
-  if (!seen_alone && definition != OrderDefinition::Sees3vtx && definition != OrderDefinition::EmptyQuad) {
-    return false;
-  }
+  const bool vtx = definition == OrderDefinition::SeesVtx, opp = definition == OrderDefinition::SeesOpp;
+  const bool fewer = definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad;
+  if (!opp && !fewer && !(vtx && limit <= kMostSearched)) return false;
   counted.clear();
-  views.start(ground, corners);
-  while (const auto p = views.next()) {
-    if (!seen_alone && !counts_alone(ground, corners, *p, definition, side_sight, occupancy)) continue;
-    counted.push_back(*p);
+  views.start(ground, corners,
+              vtx ? detail::CornerViews::Eyes::AllCorners : detail::CornerViews::Eyes::Opposite);
+  while (const auto view = views.next()) {
+    const auto& [p, u, v, from_opposite] = *view;
+    if (fewer && !counts_alone(ground, corners, p, definition, side_sight, occupancy)) continue;
+    if (!from_opposite) {
+      if (std::find(counted.begin(), counted.end(), p) != counted.end()) continue;
+      if (!side_sight.sees_side(ground, p, u, v)) continue;
+    }
+    counted.push_back(p);
     if (counted.size() > limit) return true;
   }
   return !views.gave_up();
@@ -183,6 +205,7 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
   auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
   undecided.clear();
   const Triangle corners = counter_clockwise(ground, triangle);
+  if (limit <= 1) definition = same_up_to_one(definition);
   if (count_by_views(corners, definition, limit, workspace)) return;
   counted.clear();
   if (definition == OrderDefinition::Std && parts_->grid) return count_in_grid(corners, limit, counted);

@@ -1,13 +1,13 @@
 // Cones that shrink.
 //
-// 1. A line of sight from corner w to a vertex inside beyond uv lies in the disc and in the angle from u to
-// v.
-//    The walk takes that angle from face to face, cut to what the next edge leaves of it, and ends it at an
-//    edge that blocks, at the rim, and at an edge that does not meet the disc.
+// 1. A line of sight from the opposite corner w to a vertex inside beyond uv lies in the disc and in the
+// angle
+//    from u to v; one from u lies right of uv. The walk takes that angle from face to face, cut to what the
+//    next edge leaves of it, and ends it at an edge that blocks, at the rim, and at an edge that does not
+//    meet the disc.
 // 2. A vertex next to the eye is seen. One strictly inside of a cone is, too: all lines to the points of the
-// edge through which the cone
-//    came in are free. It splits the cone. One on the border is in line with a vertex before it, and is asked
-//    for by itself.
+//    edge through which the cone came in are free. It splits the cone. One on the border is in line with a
+//    vertex before it, and is asked for by itself.
 // 3. Cones never overlap, so each line of sight is followed once. But a face is entered once for each cone,
 //    and there are as many as vertices seen: where these are many, a flood costs less.
 #include "order/corner_views.hpp"
@@ -16,30 +16,31 @@
 
 namespace thalweg::detail {
 
-void CornerViews::start(const Ground& ground, const Triangle& corners) {
+void CornerViews::start(const Ground& ground, const Triangle& corners, Eyes eyes) {
   ground_ = &ground;
   corners_ = corners;
+  eyes_ = eyes;
   disc_ = Circumdisc(ground.point(corners[0]), ground.point(corners[1]), ground.point(corners[2]));
   faces_ = 0;
   turn_to(0);
 }
 
-void CornerViews::turn_to(std::size_t corner) {
-  corner_ = corner;
+void CornerViews::turn_to(std::size_t turn) {
+  turn_ = turn;
   open_.clear();
   at_border_.clear();
   neighbours_.clear();
-  const VertexId eye = corners_[corner];
-  const Point2 from = ground_->point(eye);
-  const Angle angle{ground_->point(corners_[(corner + 1) % 3]), ground_->point(corners_[(corner + 2) % 3])};
+  u_ = corners_[turn % 3];
+  v_ = corners_[(turn + 1) % 3];
+  eye_ = turn < 3 ? corners_[(turn + 2) % 3] : turn < 6 ? u_ : v_;
+  turn < 3 ? look_from_opposite() : look_from_end();
+}
+
+void CornerViews::look_from_opposite() {
   const Tin& tin = ground_->tin();
-  const auto add_neighbour = [&](VertexId v) {
-    const Point2 at = ground_->point(v);
-    if (orientation(from, angle.right, at) > 0 && orientation(from, at, angle.left) > 0 && inside(v)) {
-      neighbours_.push_back(v);
-    }
-  };
-  for (const HalfedgeId h : tin.outgoing(eye)) {
+  const Point2 from = ground_->point(eye_);
+  const Angle angle{ground_->point(u_), ground_->point(v_)};
+  for (const HalfedgeId h : tin.outgoing(eye_)) {
     add_neighbour(tin.target(h));
     if (tin.on_rim(Tin::previous(h))) add_neighbour(tin.apex(h));
     const auto part = intersect(from, {ground_->point(tin.target(h)), ground_->point(tin.apex(h))}, angle);
@@ -47,51 +48,83 @@ void CornerViews::turn_to(std::size_t corner) {
   }
 }
 
-bool CornerViews::inside(VertexId v) const {
-  if (std::find(corners_.begin(), corners_.end(), v) != corners_.end()) return false;
-  const int side = disc_.side(ground_->point(v));
-  return side > 0 || (side == 0 && disc_.wins_tie(ground_->point(v)));
+// Faces that reach right of uv. Behind the eye they are not cut: there the disc ends at its tangent.
+void CornerViews::look_from_end() {
+  const Tin& tin = ground_->tin();
+  for (const auto& [a, b] : {std::pair(u_, v_), std::pair(v_, u_)}) {
+    const HalfedgeId h = tin.find_halfedge(a, b);
+    if (h.valid() && ground_->blocks(h)) return;
+  }
+  const Point2 u = ground_->point(u_), v = ground_->point(v_);
+  const VertexId other = eye_ == u_ ? v_ : u_;
+  const auto beyond = [&](VertexId x) { return orientation(u, v, ground_->point(x)) < 0; };
+  for (const HalfedgeId h : tin.outgoing(eye_)) {
+    const VertexId right = tin.target(h), left = tin.apex(h);
+    add_neighbour(right);
+    if (tin.on_rim(Tin::previous(h))) add_neighbour(left);
+    if (!beyond(right) && !beyond(left)) continue;
+    Angle angle{ground_->point(right), ground_->point(left)};
+    if (eye_ == u_ && !beyond(left)) angle.left = ground_->point(other);
+    if (eye_ == v_ && !beyond(right)) angle.right = ground_->point(other);
+    open_.push_back({Tin::next(h), angle});
+  }
 }
 
-std::optional<VertexId> CornerViews::next() {
+void CornerViews::add_neighbour(VertexId v) {
+  if (wanted(v)) neighbours_.push_back(v);
+}
+
+bool CornerViews::wanted(VertexId x) const {
+  if (std::find(corners_.begin(), corners_.end(), x) != corners_.end()) return false;
+  const Point2 at = ground_->point(x);
+  if (orientation(ground_->point(u_), ground_->point(v_), at) >= 0) return false;
+  const int side = disc_.side(at);
+  return side > 0 || (side == 0 && disc_.wins_tie(at));
+}
+
+bool CornerViews::meets(HalfedgeId edge) const {
+  const Point2 from = ground_->point(ground_->tin().origin(edge));
+  const Point2 to = ground_->point(ground_->tin().target(edge));
+  const int from_side = disc_.side(from), to_side = disc_.side(to);
+  return from_side > 0 || to_side > 0 || (from_side == 0 && to_side == 0) || disc_.passes(from, to);
+}
+
+std::optional<CornerViews::View> CornerViews::next() {
   const Tin& tin = ground_->tin();
-  while (faces_ <= kMostFaces) {
+  const auto view = [&](VertexId seen) { return View{seen, u_, v_, turn_ < 3}; };
+  const std::size_t last_turn = eyes_ == Eyes::Opposite ? 2 : 8;
+  while (!gave_up()) {
     if (!neighbours_.empty()) {
-      const VertexId v = neighbours_.back();
+      const VertexId seen = neighbours_.back();
       neighbours_.pop_back();
-      return v;
+      return view(seen);
     }
     if (open_.empty()) {
-      if (corner_ == 2) return std::nullopt;
-      turn_to(corner_ + 1);
+      if (turn_ == last_turn) return std::nullopt;
+      turn_to(turn_ + 1);
       continue;
     }
     const Cone cone = open_.back();
     open_.pop_back();
-    if (ground_->blocks(cone.edge) || tin.on_rim(cone.edge)) continue;
-    const Point2 right_end = ground_->point(tin.origin(cone.edge));
-    const Point2 left_end = ground_->point(tin.target(cone.edge));
-    const int right_side = disc_.side(right_end), left_side = disc_.side(left_end);
-    const bool meets = right_side > 0 || left_side > 0 || (right_side == 0 && left_side == 0) ||
-                       disc_.passes(right_end, left_end);
-    if (!meets) continue;
+    if (ground_->blocks(cone.edge) || tin.on_rim(cone.edge) || !meets(cone.edge)) continue;
     ++faces_;
     const HalfedgeId entry = tin.twin(cone.edge);
-    const VertexId apex = tin.apex(entry), eye = corners_[corner_];
-    const Point2 from = ground_->point(eye), at = ground_->point(apex);
+    const VertexId apex = tin.apex(entry);
+    const Point2 from = ground_->point(eye_), at = ground_->point(apex);
     const int of_right = orientation(from, cone.angle.right, at);
     const int of_left = orientation(from, at, cone.angle.left);
-    if (of_right > 0)
+    if (of_right > 0) {
       open_.push_back({Tin::next(entry), {cone.angle.right, of_left > 0 ? at : cone.angle.left}});
+    }
     if (of_left > 0) {
       open_.push_back({Tin::previous(entry), {of_right > 0 ? at : cone.angle.right, cone.angle.left}});
     }
-    if (of_right < 0 || of_left < 0 || !inside(apex)) continue;
-    if (of_right > 0 && of_left > 0) return apex;
+    if (of_right < 0 || of_left < 0 || !wanted(apex)) continue;
+    if (of_right > 0 && of_left > 0) return view(apex);
     const bool known = std::find(at_border_.begin(), at_border_.end(), apex) != at_border_.end();
-    if (known || !ground_->sees(apex, eye)) continue;
+    if (known || !ground_->sees(apex, eye_)) continue;
     at_border_.push_back(apex);
-    return apex;
+    return view(apex);
   }
   return std::nullopt;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the corners of a triangle see in its disc, each through the side across from it.
+/// What the corners of a triangle see in its disc, through its sides or beside them.
 
 #include "order/circumdisc.hpp"
 #include "order/ground.hpp"
@@ -14,12 +14,21 @@ namespace thalweg::detail {
 /// Looks from one corner after the other; scratch memory is reused.
 class CornerViews {
  public:
+  enum class Eyes {
+    Opposite,   ///< each side from the corner opposite of it
+    AllCorners  ///< and then from its ends
+  };
+  /// A vertex inside, strictly beyond the side from u to v of the triangle, which lies to its left.
+  struct View {
+    VertexId seen, u, v;
+    bool from_opposite = true;
+  };
   /// Pre: corners counter-clockwise, a valid triangle of the ground.
-  void start(const Ground& ground, const Triangle& corners);
-  /// The next vertex inside that its opposite corner sees, in no promised order, each once. None if there is
-  /// no further one, or if the walk grew too long. Complexity, all calls together: a face for each time that
-  /// the lines of sight to two neighbouring vertices enclose it.
-  std::optional<VertexId> next();
+  void start(const Ground& ground, const Triangle& corners, Eyes eyes);
+  /// The next vertex that an eye sees, in no promised order, for each eye once. None if there is no further
+  /// one, or if the walk grew too long. Complexity, all calls together: a face for each time that the lines
+  /// of sight to two neighbouring vertices enclose it.
+  std::optional<View> next();
   /// Whether the walk was given up: then what `next` yielded is not all.
   [[nodiscard]] bool gave_up() const { return faces_ > kMostFaces; }
 
@@ -31,12 +40,18 @@ class CornerViews {
     HalfedgeId edge;
     Angle angle;
   };
-  void turn_to(std::size_t corner);
-  [[nodiscard]] bool inside(VertexId v) const;
+  void turn_to(std::size_t turn);
+  void look_from_opposite();
+  void look_from_end();
+  void add_neighbour(VertexId v);
+  [[nodiscard]] bool wanted(VertexId v) const;
+  [[nodiscard]] bool meets(HalfedgeId edge) const;
 
   const Ground* ground_ = nullptr;
   Triangle corners_{};
-  std::size_t corner_ = 0;
+  Eyes eyes_ = Eyes::Opposite;
+  std::size_t turn_ = 0;  ///< 0 to 2: opposite corners; 3 to 8: ends of sides
+  VertexId eye_, u_, v_;
   std::size_t faces_ = 0;
   Circumdisc disc_;
   std::vector<VertexId> neighbours_;  ///< of the eye, not yielded yet
