@@ -109,10 +109,36 @@ class FaceRun {
           if (found && found->count() == 0) found.reset();
           listed_.partial[f] = 1;
         }
+        if (!found) found = delaunay_only(f);
         if (!found) refuse_face(f, most);
         listed_.lists[f] = std::move(*found);
       }
     });
+  }
+
+  [[nodiscard]] bool is_candidate(Triangle corners) const {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const auto at = std::lower_bound(faces_.triangles.begin(), faces_.triangles.end(), corners,
+                                     [](const OrderTriangle& t, const Triangle& c) { return t.corners < c; });
+    return at != faces_.triangles.end() && at->corners == corners;
+  }
+
+  /// The Delaunay triangulation of a face; none if not all its triangles are candidates: then one of them
+  /// meets one that is.
+  [[nodiscard]] std::optional<FaceTriangulations> delaunay_only(std::size_t f) const {
+    FaceTriangulations list;
+    for (const std::uint32_t t : faces_.faces.row(f)) {
+      const auto& [a, b, c] = faces_.triangles[t].corners;
+      const HalfedgeId ab = delaunay_.find_halfedge(a, b);
+      if (!ab.valid() || delaunay_.apex(ab) != c) continue;
+      list.triangles.push_back(t);
+      for (const HalfedgeId side : {ab, Tin::next(ab), Tin::previous(ab)}) {
+        const HalfedgeId twin = delaunay_.twin(side);
+        if (twin.valid() && !is_candidate(delaunay_.triangle(Tin::triangle_of(twin)))) return std::nullopt;
+      }
+    }
+    list.size = static_cast<std::uint32_t>(list.triangles.size());
+    return list.size == 0 ? std::nullopt : std::optional(std::move(list));
   }
 
   [[noreturn]] void refuse_face(std::size_t f, std::size_t most) const {
@@ -393,7 +419,8 @@ void refuse_other_terms(const std::vector<Objective>& criteria) {
       const Declaration& declaration = declaration_of(part.criterion);
       if (declaration.vertex == nullptr) continue;
       throw Error(ErrorCode::Unsupported, "criterion " + std::string(declaration.traits.name) +
-                                              " cannot be optimised at orders above 1; take --order 1");
+                                              " cannot be optimised at orders above 1, nor under sees-3vtx "
+                                              "and empty-quad; take --order 1 and --definition sees-opp");
     }
   }
 }

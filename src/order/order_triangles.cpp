@@ -150,11 +150,16 @@ void TriangleSearch::from_side(VertexId u, std::size_t first, Scratch& scratch,
 
 }  // namespace
 
+bool can_list_order_triangles(const ConstrainedOrder& ground, const OrderTriangleOptions& options) {
+  return pruning_for(options.definition, ground.unconstrained()) != FanPruning::None ||
+         ground.ground().vertex_count() <= options.exhaustive_limit;
+}
+
 std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
                                                 const OrderTriangleOptions& options, Progress& progress) {
   const FanPruning pruning = pruning_for(options.definition, ground.unconstrained());
   const std::size_t vertices = ground.ground().vertex_count();
-  if (pruning == FanPruning::None && vertices > options.exhaustive_limit) {
+  if (!can_list_order_triangles(ground, options)) {
     throw Error(ErrorCode::SizeLimit,
                 "listing all triangles of an order under " +
                     std::string(definition_name(options.definition)) +

@@ -4,6 +4,7 @@
 // and keep their orientation in the written coordinates.
 #include "pipeline/higher_order.hpp"
 
+#include "base/parallel.hpp"
 #include "pipeline/std_order_error.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -16,11 +17,77 @@
 
 namespace thalweg {
 
-FixedFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const LabellingConfig& labelling,
-                              Progress& progress) {
+namespace {
+
+/// The ground's triangles, and those of the other diagonals of its first-order quadrilaterals: these have
+/// order 1, for the ends of a Delaunay diagonal are in each other's circle then, and see what they must.
+std::vector<OrderTriangle> triangles_of_flips(const Terrain& terrain, OrderDefinition definition,
+                                              const Progress& progress) {
+  std::vector<OrderTriangle> triangles;
+  const auto add = [&](Triangle corners, std::uint32_t order) {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    triangles.push_back({corners, order});
+  };
+  for (const Triangle& corners : terrain.ground.triangles()) add(corners, 0);
+  for (const Quadrilateral& q :
+       find_quadrilaterals(terrain.ground, {.definition = definition, .mode = terrain.mode}, progress)) {
+    add({q.s, q.u, q.t}, 1);
+    add({q.t, q.v, q.s}, 1);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+/// 1 for each face that has more triangulations than the optimiser lists.
+std::vector<std::uint8_t> faces_too_large(const FixedFaces& faces, const Progress& progress) {
+  constexpr std::size_t kBlock = 64, kSmall = 14;  // 2^14 sets of triangles are no more than it lists
+  const std::size_t most = FaceOptimizeOptions{}.most_triangulations;
+  std::vector<std::uint8_t> too_large(faces.faces.size(), 0);
+  for_each_block(too_large.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (faces.faces.row(f).size() <= kSmall) continue;
+      too_large[f] = list_triangulations(faces, f, {.most = most}) ? 0 : 1;
+    }
+  });
+  return too_large;
+}
+
+std::optional<FixedFaces> narrow(const FixedFaces& faces, const Terrain& terrain, const Tin& surface,
+                                 const Progress& progress) {
+  const std::vector<std::uint8_t> too_large = faces_too_large(faces, progress);
+  if (std::find(too_large.begin(), too_large.end(), 1) == too_large.end()) return std::nullopt;
+  std::vector<std::uint8_t> dropped(faces.triangles.size(), 0);
+  for (std::size_t f = 0; f < too_large.size(); ++f) {
+    if (too_large[f] == 0) continue;
+    for (const std::uint32_t t : faces.faces.row(f)) dropped[t] = 1;
+  }
+  const std::vector<OrderTriangle> kept = triangles_of_flips(terrain, OrderDefinition::SeesOpp, progress);
+  const auto less = [](const OrderTriangle& a, const OrderTriangle& b) { return a.corners < b.corners; };
+  std::vector<OrderTriangle> triangles;
+  for (std::size_t t = 0; t < dropped.size(); ++t) {
+    const OrderTriangle& triangle = faces.triangles[t];
+    if (dropped[t] == 0 || std::binary_search(kept.begin(), kept.end(), triangle, less)) {
+      triangles.push_back(triangle);
+    }
+  }
+  return find_fixed_faces(surface, std::move(triangles), {}, progress);
+}
+
+}  // namespace
+
+SurfaceFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const LabellingConfig& labelling,
+                                Progress& progress) {
+  const OrderTriangleOptions options{.definition = labelling.definition, .max_order = labelling.order};
+  SurfaceFaces found;
   const ConstrainedOrder order(terrain.ground, terrain.mode);
-  std::vector<OrderTriangle> triangles = find_order_triangles(
-      order, {.definition = labelling.definition, .max_order = labelling.order}, progress);
+  found.only_flips = labelling.order == 1 && !can_list_order_triangles(order, options);
+  std::vector<OrderTriangle> triangles;
+  if (found.only_flips) {
+    triangles = triangles_of_flips(terrain, labelling.definition, progress);
+  } else {
+    triangles = find_order_triangles(order, options, progress);
+  }
   progress.advance(0.6);
   if (surface.triangle_count() < terrain.ground.triangle_count()) {
     triangles = keep_on_surface(surface, std::move(triangles), progress);
@@ -33,18 +100,42 @@ FixedFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const 
   }
   auto faces = find_fixed_faces(surface, std::move(triangles), {}, progress);
   progress.advance(0.9);
-  if (faces) return std::move(*faces);
+  if (faces) {
+    found.faces = std::move(*faces);
+    if (labelling.order == 1) found.narrowed = narrow(found.faces, terrain, surface, progress);
+    return found;
+  }
   throw no_triangulation(terrain, labelling, progress);
 }
 
-HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& faces,
+namespace {
+
+/// Bounds over more triangulations, and what tells of their faces.
+void take_bounds(const FaceOptimizeResult& all, FaceOptimizeResult& result) {
+  bool proved = true;
+  for (std::size_t i = 0; i < result.criteria.size(); ++i) {
+    CriterionResult& line = result.criteria[i];
+    line.bound = all.criteria[i].bound;
+    proved = proved && line.result == line.bound;
+    line.optimal = proved;
+    line.method += "; bound: " + all.criteria[i].method;
+  }
+  result.faces = all.faces;
+  result.partial_faces = all.partial_faces;
+  result.largest_face = all.largest_face;
+}
+
+}  // namespace
+
+HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces& faces,
                                         const OptimizeOptions& options, const LabellingConfig& labelling,
                                         Progress& progress) {
-  FaceOptimizeResult result = optimize_faces(
-      delaunay, faces,
-      {.common = options,
-       .order_sum_after = labelling.least_orders ? std::optional<std::size_t>(1) : std::nullopt},
-      progress);
+  const FaceOptimizeOptions choice_of{
+      .common = options,
+      .order_sum_after = labelling.least_orders ? std::optional<std::size_t>(1) : std::nullopt};
+  FaceOptimizeResult result =
+      optimize_faces(delaunay, faces.narrowed ? *faces.narrowed : faces.faces, choice_of, progress);
+  if (faces.narrowed) take_bounds(optimize_faces(delaunay, faces.faces, choice_of, progress), result);
   HigherOrderChoice choice;
   choice.criteria = std::move(result.criteria);
   std::vector<Triangle> triangles;
@@ -67,6 +158,7 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& f
   std::sort(choice.new_edges.begin(), choice.new_edges.end());
   choice.figures = {.definition = std::string(definition_name(labelling.definition)),
                     .order = labelling.order,
+                    .only_flips = faces.only_flips,
                     .faces = result.faces,
                     .partial_faces = result.partial_faces,
                     .largest_face = result.largest_face,

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The choice of a triangulation at orders above 1, between the ground and the files.
+/// The choice of a triangulation in each face (LabellingConfig::by_faces), between the ground and the files.
 
 #include "pipeline/surface.hpp"
 
@@ -9,15 +9,27 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace thalweg {
 
+struct SurfaceFaces {
+  FixedFaces faces;
+  /// Not all triangles of the order could be listed, so the faces are for the triangulations that have no
+  /// other edges than those of the ground and other diagonals of its first-order quadrilaterals.
+  bool only_flips = false;
+  /// At order 1, if some faces have too many triangulations to list: faces for the triangulations that in
+  /// these have no other edges than those of the ground and diagonals that SeesOpp frees, of which no two
+  /// overlap. What is chosen is chosen from these; bounds are for all.
+  std::optional<FixedFaces> narrowed;
+};
+
 /// The faces of the surface, from the orders of triangles on the whole ground. `surface`: the kept triangles.
 /// Throws: Error{Unsupported} if no triangulation has an order that low, as can be under Std; {SizeLimit};
 /// {Cancelled}.
-FixedFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const LabellingConfig& labelling,
-                              Progress& progress);
+SurfaceFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const LabellingConfig& labelling,
+                                Progress& progress);
 
 struct HigherOrderChoice {
   Tin tin;
@@ -28,7 +40,7 @@ struct HigherOrderChoice {
 };
 
 /// Throws: as optimize_faces.
-HigherOrderChoice choose_triangulations(const Tin& delaunay, const FixedFaces& faces,
+HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces& faces,
                                         const OptimizeOptions& options, const LabellingConfig& labelling,
                                         Progress& progress);
 

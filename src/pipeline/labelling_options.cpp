@@ -70,14 +70,6 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
     }
   }
   config.definition = parse_definition(arguments.definition);
-  const bool overlapping =
-      config.definition == OrderDefinition::Sees3vtx || config.definition == OrderDefinition::EmptyQuad;
-  if (overlapping && config.order == 1) {
-    throw Error(ErrorCode::Unsupported,
-                "--definition " + arguments.definition +
-                    ": its quadrilaterals overlap, and optimising over them is not "
-                    "available; take sees-opp or a stronger definition, or another --order");
-  }
   config.criteria = parse_criteria(arguments.optimize);
   if (config.least_orders && (config.criteria.empty() || !config.criteria[0].is(Criterion::LocalMinima))) {
     throw Error(ErrorCode::Usage, "--order auto: the first criterion of --optimize must be local-minima");

@@ -121,6 +121,7 @@ Json first_order_json(const ReportFirstOrder& first) {
 Json higher_order_json(const ReportHigherOrder& higher) {
   return {{"definition", higher.definition},
           {"order", higher.order},
+          {"over", higher.only_flips ? "flips" : "all"},
           {"faces", higher.faces},
           {"partial_faces", higher.partial_faces},
           {"largest_face", higher.largest_face},
@@ -236,6 +237,7 @@ void add_structure(Rows rows, const Report& r) {
   if (r.higher_order) {
     rows.title(fmt::format("Structure at order {}", r.higher_order->order));
     rows.row("definition", r.higher_order->definition);
+    if (r.higher_order->only_flips) rows.row("chosen from", "flips of Delaunay edges");
     rows.count("faces", r.higher_order->faces);
     rows.count_if_any("faces not listed whole", r.higher_order->partial_faces);
     rows.count("largest face, triangles", r.higher_order->largest_face);

@@ -244,7 +244,7 @@ void choose_first_order(Labelled& labelled, const Terrain& terrain, const RunCon
   labelled.tin = flip_edges(labelled.delaunay, flips);
 }
 
-void choose_higher_order(Labelled& labelled, const FixedFaces& faces, const LabellingConfig& labelling,
+void choose_higher_order(Labelled& labelled, const SurfaceFaces& faces, const LabellingConfig& labelling,
                          Progress& progress) {
   HigherOrderChoice choice =
       choose_triangulations(labelled.delaunay, faces, labelled.options, labelling, progress);
@@ -259,8 +259,9 @@ void choose_higher_order(Labelled& labelled, const FixedFaces& faces, const Labe
 Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
                           Progress& progress) {
   Labelled labelled;
-  if (run.labelling.order > 1 && !run.outputs.proof.empty()) {
-    throw Error(ErrorCode::Unsupported, "--proof is written for orders 0 and 1 only");
+  if (run.labelling.by_faces() && !run.outputs.proof.empty()) {
+    throw Error(ErrorCode::Unsupported,
+                "--proof is written for orders 0 and 1 only, and under definitions up to sees-opp");
   }
   if (std::find(terrain.keep.begin(), terrain.keep.end(), true) == terrain.keep.end()) {
     throw Error(ErrorCode::EmptyInput,
@@ -270,7 +271,7 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
 
   progress.start_phase("orders");
   labelled.delaunay_order = delaunay_order(terrain, run.labelling, progress);
-  if (run.labelling.order == 1) {
+  if (run.labelling.order == 1 && !run.labelling.by_faces()) {
     labelled.quadrilaterals = on_surface(
         find_quadrilaterals(terrain.ground, {.definition = run.labelling.definition, .mode = terrain.mode},
                             progress),
@@ -279,8 +280,8 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
     bar_diagonals(terrain.ground, terrain.left_out, terrain.error_limit, labelled.quadrilaterals, progress);
     labelled.barred -= labelled.quadrilaterals.size();
   }
-  FixedFaces faces;
-  if (run.labelling.order > 1) {
+  SurfaceFaces faces;
+  if (run.labelling.by_faces()) {
     labelled.delaunay = keep_triangles(terrain.ground, terrain.keep);
     faces = find_surface_faces(terrain, labelled.delaunay, run.labelling, progress);
     terrain.ground = {};
@@ -300,7 +301,7 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
     labelled.reference = std::make_unique<const Reference>(reference.points, reference.heights);
     labelled.options.reference = labelled.reference.get();
   }
-  if (run.labelling.order > 1) {
+  if (run.labelling.by_faces()) {
     choose_higher_order(labelled, faces, run.labelling, progress);
   } else {
     choose_first_order(labelled, terrain, run, progress);
@@ -394,9 +395,13 @@ void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
   }
 }
 
-void refuse_at_higher_order(const Terrain& terrain, const RunContext& run) {
-  const auto refuse = [](const std::string& what) {
-    throw Error(ErrorCode::Unsupported, what + " is not available at orders above 1; take --order 1");
+void refuse_with_faces(const Terrain& terrain, const RunContext& run) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(
+        ErrorCode::Unsupported,
+        what + (run.labelling.order > 1
+                    ? " is not available at orders above 1; take --order 1"
+                    : " is not available under sees-3vtx and empty-quad; take --definition sees-opp"));
   };
   if (!run.outputs.problem.empty()) refuse("--dump-problem");
   if (!terrain.left_out.xy.empty()) refuse("simplification");
@@ -443,7 +448,7 @@ void write_tin_of(const BuiltTin& built, const OutputConfig& output, PendingOutp
 }
 
 void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progress& progress) {
-  if (run.labelling.order > 1) refuse_at_higher_order(terrain, run);
+  if (run.labelling.by_faces()) refuse_with_faces(terrain, run);
   Report& report = built.report;
   Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
 

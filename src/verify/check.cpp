@@ -276,10 +276,17 @@ class Checker {
          .scale = scale(),
          .reference = reference(),
          .order = subject_.order,
-         .structure_known = subject_.order == 0 || (subject_.order == 1 && orders_known_)},
+         .structure_known = subject_.order == 0 ||
+                            (subject_.order == 1 && orders_known_ && quadrilaterals_tell_all())},
                       claims_.criteria, proof_fits_ ? &*claims_.proof : nullptr, progress_)) {
       table_.add(std::move(finding.claim), finding.verdict, std::move(finding.detail));
     }
+  }
+
+  /// Not where they may overlap: then further edges can be free.
+  [[nodiscard]] bool quadrilaterals_tell_all() const {
+    return subject_.definition != OrderDefinition::Sees3vtx &&
+           subject_.definition != OrderDefinition::EmptyQuad;
   }
 
   [[nodiscard]] const PlainReference* reference() const { return reference_ ? &*reference_ : nullptr; }

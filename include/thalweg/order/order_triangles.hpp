@@ -35,4 +35,7 @@ struct OrderTriangleOptions {
 std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
                                                 const OrderTriangleOptions& options, Progress& progress);
 
+/// Whether find_order_triangles takes this ground: false where it would throw SizeLimit.
+bool can_list_order_triangles(const ConstrainedOrder& ground, const OrderTriangleOptions& options);
+
 }  // namespace thalweg

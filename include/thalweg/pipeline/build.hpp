@@ -40,6 +40,13 @@ struct LabellingConfig {
   std::vector<Objective> criteria = {Criterion::LocalMinima, Criterion::NormalAngleSum};
   std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own
   std::optional<SourceSpec> reference;  ///< what vertical-error is measured against: a DEM, or points
+
+  /// Whether triangulations of faces are chosen, not diagonals of quadrilaterals: at orders above 1, and at
+  /// order 1 where quadrilaterals overlap and are not all that can change.
+  [[nodiscard]] bool by_faces() const {
+    const bool overlap = definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad;
+    return order > (overlap ? 0U : 1U);
+  }
 };
 
 struct BuildConfig {

@@ -74,10 +74,12 @@ struct ReportFirstOrder {
   std::size_t width = 0;
 };
 
-/// The structure of a run at an order above 1.
+/// The structure of a run that chose triangulations of faces: above order 1, and where quadrilaterals
+/// overlap.
 struct ReportHigherOrder {
   std::string definition;
   unsigned order = 0;
+  bool only_flips = false;        ///< chosen from: else all triangulations of the order
   std::size_t faces = 0;          ///< between fixed edges, those with a choice
   std::size_t partial_faces = 0;  ///< with too many triangulations to list: chosen among a smaller order's
   std::size_t largest_face = 0;   ///< triangles
@@ -129,7 +131,7 @@ struct Report {
   ReportTin tin;
   std::optional<ReportSimplification> simplification;
   ReportFirstOrder first_order;                   ///< of orders 0 and 1
-  std::optional<ReportHigherOrder> higher_order;  ///< of orders above 1
+  std::optional<ReportHigherOrder> higher_order;  ///< if triangulations of faces were chosen
   std::vector<ReportCriterion> criteria;
   ReportPits pits_delaunay;
   ReportPits pits_result;

@@ -2,6 +2,7 @@
 #include "support/plain_criteria.hpp"
 
 #include <thalweg/optimize/optimize_faces.hpp>
+#include <thalweg/order/quadrilaterals.hpp>
 
 #include <gtest/gtest.h>
 #include <support/oracle/law_testing.hpp>
@@ -191,7 +192,7 @@ TEST(OptimizeFaces, IsTheBestOfAll) {
     for (int v = 0; v < oracle.scene().size(); ++v) heights.push_back(dice.between(0, levels - 1));
     const oracle::Enumeration all = enumerate(oracle);
     for (int k = 0; k <= 4; ++k) {
-      const auto definition = kOrderDefinitions[static_cast<std::size_t>(dice.between(0, 5))];
+      const auto definition = kOrderDefinitions[static_cast<std::size_t>(dice.between(0, 7))];
       const auto terrain = terrain_of(oracle, all, definition, k, heights);
       if (!terrain) continue;
       for (const auto& criteria : kPriorities) {
@@ -206,6 +207,58 @@ TEST(OptimizeFaces, IsTheBestOfAll) {
     }
   });
   EXPECT_GT(partial_faces, 100U);
+}
+
+/// Without triangles that are neither of the ground nor of a first-order quadrilateral's other diagonal.
+std::optional<Terrain> flips_of(Terrain&& all, OrderDefinition definition, GroundMode mode) {
+  Progress progress;
+  std::set<Triangle> flips;
+  std::vector<OrderTriangle> triangles;
+  const auto add = [&](Triangle corners, std::uint32_t order) {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    if (flips.insert(corners).second) triangles.push_back({corners, order});
+  };
+  for (const Triangle& corners : all.tin.triangles()) add(corners, 0);
+  for (const Quadrilateral& q :
+       find_quadrilaterals(all.tin, {.definition = definition, .mode = mode}, progress)) {
+    add({q.s, q.u, q.t}, 1);
+    add({q.t, q.v, q.s}, 1);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  auto faces = find_fixed_faces(all.tin, std::move(triangles), {}, progress);
+  if (!faces) return std::nullopt;
+  std::erase_if(all.triangulations, [&](const Tin& tin) {
+    return std::ranges::any_of(tin.triangles(), [&](Triangle corners) {
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      return !flips.contains(corners);
+    });
+  });
+  all.faces = std::move(*faces);
+  return std::move(all);
+}
+
+TEST(OptimizeFaces, IsTheBestOfFlipsThatOverlap) {
+  int number = 0;
+  std::size_t fewer = 0;
+  for_each_scene(oracle::kStreams, 30, kSmall, [&](const Oracle& oracle) {
+    oracle::Dice dice("optimize-flips-" + std::to_string(number++));
+    std::vector<double> heights;
+    for (int v = 0; v < oracle.scene().size(); ++v) heights.push_back(dice.between(0, 4));
+    const oracle::Enumeration all = enumerate(oracle);
+    for (const OrderDefinition definition : {OrderDefinition::Sees3vtx, OrderDefinition::EmptyQuad}) {
+      auto terrain = terrain_of(oracle, all, definition, 1, heights);
+      if (!terrain) continue;
+      const std::size_t count = terrain->triangulations.size();
+      terrain = flips_of(std::move(*terrain), definition, test::mode_of(oracle.scene()));
+      ASSERT_TRUE(terrain);
+      fewer += terrain->triangulations.size() < count ? 1 : 0;
+      for (const auto& criteria : kPriorities) {
+        ASSERT_NO_FATAL_FAILURE(check(*terrain, criteria)) << definition_name(definition);
+        ASSERT_FALSE(testing::Test::HasFailure()) << definition_name(definition);
+      }
+    }
+  });
+  EXPECT_GT(fewer, 0U);
 }
 
 }  // namespace
