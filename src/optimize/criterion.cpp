@@ -119,12 +119,12 @@ double vertical_squares(const Face& face, Scale scale, const Reference& referenc
 /// 1 if all edges at an interior vertex are strictly convex. Van Kreveld, Loeffler, Silveira 2010, where
 /// edges are convex or reflex; one at which the surface is flat is neither.
 std::int64_t convex_vertex(const Star& star) {
-  return !star.on_rim && star.convex == star.edges ? 1 : 0;
+  return !star.on_rim && !star.reflex && !star.flat ? 1 : 0;
 }
 
 /// 1 if an interior vertex has both a strictly convex and a strictly reflex edge. Same source.
 std::int64_t mixed_vertex(const Star& star) {
-  return !star.on_rim && star.convex > 0 && star.reflex > 0 ? 1 : 0;
+  return !star.on_rim && star.convex && star.reflex ? 1 : 0;
 }
 
 /// Number of edges at a vertex, on the rim too. Same source. Their sum is twice the number of edges.

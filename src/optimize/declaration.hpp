@@ -23,7 +23,7 @@ using ReferenceTerm = double (*)(const Face&, Scale, const Reference&);
 /// What meets at a vertex. The surface is strictly convex or reflex at an edge, or flat, decided exactly.
 struct Star {
   std::uint32_t edges = 0;  ///< rim edges included
-  std::uint32_t convex = 0, reflex = 0;
+  bool convex = false, reflex = false, flat = false;  ///< whether it is so at some edge
   bool on_rim = false;
 };
 /// The term of a vertex that is in a triangle: a whole number.

@@ -3,6 +3,7 @@
 #include "optimize/first_order_problem.hpp"
 
 #include "optimize/ties.hpp"
+#include "optimize/vertex_terms.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -66,7 +67,8 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   problem.owner = quadrilaterals_of_triangles(tin, quadrilaterals);
   const std::vector<std::uint32_t>& owner = problem.owner;
   const Scale scale{options.horizontal_metres_per_unit, options.vertical_metres_per_unit};
-  const TermScan scan(tin, quadrilaterals, owner, scale, options.reference);
+  const TermScan scan(tin, quadrilaterals, owner, scale, options.reference,
+                      most_at_vertex(options.width_limit));
   Labelling<Criteria>& labelling = problem.labelling;
   labelling.unary.resize(quadrilaterals.size());
   if (!problem.sums.empty()) {

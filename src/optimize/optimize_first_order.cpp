@@ -6,7 +6,9 @@
 // 3. An objective that is the worst of its terms: what matters is that no term is beyond the least limit that
 //    leaves the criteria before it at their best. Its level counts the terms beyond a limit; the least limit
 //    with none is found by bisection among the values of terms, each step a solution of levels up to this
-//    one. Below it the next criterion decides; if none is named, the sum of normal angles.
+//    one. Below it the next criterion decides; if none is named, the sum of normal angles. Of vertices only
+//    those are counted at which labels were found to be beyond the limit, more and more of them: the others
+//    keep it by themselves, and would only tie everything to everything.
 // 4. Local minima after other criteria: a level that counts pits, at first too few (pit_terms.cpp); it is
 // refined
 //    until it counts those of the solution right, and all that depends on it is done again.
@@ -14,6 +16,7 @@
 // beat.
 #include "optimize/conflict.hpp"
 #include "optimize/first_order_problem.hpp"
+#include "optimize/piece.hpp"
 #include "optimize/pit_terms.hpp"
 #include "optimize/proof_steps.hpp"
 #include "optimize/solver.hpp"
@@ -56,7 +59,8 @@ class Run {
         progress_(progress),
         problem_(begin(tin, quadrilaterals, options, progress)),
         scan_(tin, quadrilaterals, problem_.owner,
-              {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}, options.reference) {}
+              {options.horizontal_metres_per_unit, options.vertical_metres_per_unit}, options.reference,
+              most_at_vertex(options.width_limit)) {}
 
   OptimizeResult run() {
     progress_.start_phase("choose diagonals");
@@ -88,36 +92,103 @@ class Run {
     return part;
   }
 
+  /// An extreme of vertices: its excess is counted only at vertices where labels were found to be beyond the
+  /// limit. As long as some are not counted what is solved is a relaxation; when its labels keep the limit
+  /// everywhere, they are as good with all counted.
+  struct HeldVertices {
+    std::size_t level = 0;
+    VertexTerms terms;
+    std::int64_t most = 0;
+    std::vector<std::uint8_t> counted;  ///< by table
+    WideStars wide = WideStars::Relaxed;
+  };
+
+  /// Puts the excess of the counted vertices in place. Returns its constant.
+  std::int64_t count_held(Labelling<Criteria>& part) const {
+    const ExcessOptions excess{held_->most, &held_->terms, held_->counted, held_->wide};
+    return count_excess(scan_, problem_.sums[held_->level], excess, held_->level, part, progress_);
+  }
+
+  void hold(std::int64_t most, std::uint8_t counted) {
+    held_->most = most;
+    held_->counted.assign(held_->terms.tables.size(), counted);
+  }
+
+  /// Solves, and counts more vertices until those that are not counted keep their limit, or the limit is
+  /// found to be too low. The level of the excess is then the number itself.
+  Solution<Criteria> solve_held(Labelling<Criteria>& part) {
+    for (int round = 0;; ++round) {
+      const std::int64_t constant = held_ ? count_held(part) : 0;
+      Solution<Criteria> solution = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
+      if (!held_) return solution;
+      solution.value.level[held_->level] += constant;
+      solution.bound.level[held_->level] += constant;
+      if (solution.bound.level[held_->level] > 0) return solution;
+      if (!mark_excess(held_->terms, problem_.sums[held_->level], held_->most, solution.label,
+                       held_->counted)) {
+        return solution;
+      }
+      if (round == kRounds) hold(held_->most, 1);
+    }
+  }
+
+  [[nodiscard]] std::int64_t worst(std::size_t level, const Extreme& extreme,
+                                   const Solution<Criteria>& solution) const {
+    return extreme_of(scan_, problem_.sums[level], problem_.labelling.first, solution.label, progress_,
+                      extreme.vertex ? &*extreme.vertex : nullptr);
+  }
+
+  /// Puts a limit on an extreme. Returns the constant of its level.
+  std::int64_t limit(std::size_t level, std::int64_t most, Labelling<Criteria>& part) {
+    if (held_ && held_->level == level) {
+      hold(most, 0);
+      return 0;
+    }
+    return count_excess(scan_, problem_.sums[level], {.most = most}, level, part, progress_);
+  }
+
+  /// Labels that need not be the best: the bound says nothing.
+  Solution<Criteria> solve_with_wide_at_least(Labelling<Criteria>& part) {
+    held_->wide = WideStars::Least;
+    Solution<Criteria> solution = solve_held(part);
+    held_->wide = WideStars::Relaxed;
+    return solution;
+  }
+
   void settle(std::size_t level) {
     const Objective& objective = problem_.sums[level];
     Labelling<Criteria> part = up_to(level);
     const Extreme extreme = find_extreme(scan_, objective, part.first, progress_);
-    const auto worst = [&](const Solution<Criteria>& solution) {
-      return extreme_of(scan_, objective, part.first, solution.label, progress_);
-    };
-    const Solution<Criteria> before = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
+    const Solution<Criteria> before = solve_held(part);
     known_ = before.label;
     Settled& settled = settled_[level];
-    settled = {extreme.delaunay, worst(before), extreme.values.front(), extreme.values.front()};
+    settled = {extreme.delaunay, worst(level, extreme, before), extreme.values.front(),
+               extreme.values.front()};
+    if (extreme.vertex) held_ = HeldVertices{level, *extreme.vertex, 0, {}};
     auto low = extreme.values.begin();
     auto high = std::lower_bound(low, extreme.values.end(), settled.limit);
+    const auto within = [&](const Solution<Criteria>& trial, std::int64_t most) {
+      return same_before(trial.value, before.value, level) && worst(level, extreme, trial) <= most;
+    };
     while (low < high) {
       const auto middle = low + (high - low) / 2;
-      const std::int64_t constant = count_excess(scan_, objective, *middle, level, part, progress_);
-      const Solution<Criteria> trial = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
-      if (same_before(trial.value, before.value, level) && trial.value.level[level] + constant == 0) {
-        settled.limit = worst(trial);
+      const std::int64_t constant = limit(level, *middle, part);
+      Solution<Criteria> trial = solve_held(part);
+      const bool excluded =
+          same_before(trial.bound, before.value, level) && trial.bound.level[level] + constant > 0;
+      if (!excluded && extreme.vertex && !extreme.vertex->wide.empty() && !within(trial, *middle)) {
+        trial = solve_with_wide_at_least(part);
+      }
+      if (within(trial, *middle)) {
+        settled.limit = worst(level, extreme, trial);
         known_ = trial.label;
         high = std::lower_bound(extreme.values.begin(), middle, settled.limit);
         continue;
       }
-      const bool excluded =
-          same_before(trial.bound, before.value, level) && trial.bound.level[level] + constant > 0;
       low = middle + 1;
       if (excluded && low != extreme.values.end()) settled.bound = *low;
     }
-    problem_.delaunay[level] =
-        count_excess(scan_, objective, settled.limit, level, problem_.labelling, progress_);
+    problem_.delaunay[level] = limit(level, settled.limit, problem_.labelling);
   }
 
   static bool same_before(const Cost<Criteria>& a, const Cost<Criteria>& b, std::size_t level) {
@@ -132,9 +203,15 @@ class Run {
     }
     const std::size_t pits = problem_.pit_level.value_or(problem_.sums.size());
     settle_from(0, pits);
-    if (proof_ != nullptr) write_proof();
+    if (proof_ != nullptr) {
+      // The verifier counts all vertices.
+      if (held_) hold(held_->most, 1), count_held(labelling);
+      write_proof();
+      if (held_) hold(held_->most, 0);
+    }
     if (!problem_.pit_level) {
-      solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
+      solution_ = solve_held(labelling);
+      keep_limits();
       return;
     }
     const std::size_t quadrilaterals = problem_.rank.size();
@@ -142,12 +219,27 @@ class Run {
     for (pits_ = PitTerms::Outcome::Refined; pits_ == PitTerms::Outcome::Refined;) {
       lay_pits(terms, quadrilaterals);
       settle_from(pits + 1, problem_.sums.size());
-      solution_ = solve<Criteria>(labelling, problem_.rank, limits_, progress_, known_);
+      solution_ = solve_held(labelling);
+      keep_limits();
       pits_ = terms.refine(solution_.label);
     }
     problem_.rank.resize(quadrilaterals);
     solution_.label.resize(quadrilaterals);
     problem_.delaunay[pits] = terms.constant();
+  }
+
+  /// Where stars too wide for tables are beyond the limit, other labels are taken that are not; the bound
+  /// stays.
+  void keep_limits() {
+    if (!held_ || known_.empty()) return;
+    const auto within = [&](const std::vector<Label>& label) {
+      return extreme_of(scan_, problem_.sums[held_->level], problem_.labelling.first, label, progress_,
+                        &held_->terms) <= settled_[held_->level].limit;
+    };
+    if (within(solution_.label)) return;
+    solution_.label = solve_with_wide_at_least(problem_.labelling).label;
+    if (!within(solution_.label)) solution_.label = known_;
+    solution_.value = cost_of<Criteria>(problem_.labelling, solution_.label);
   }
 
   void settle_from(std::size_t first, std::size_t end) {
@@ -213,7 +305,8 @@ class Run {
       *proof_ << '\n';
       return;
     }
-    count_excess(scan_, objective, better, level, part, progress_);
+    count_excess(scan_, objective, {better, extreme.vertex ? &*extreme.vertex : nullptr, {}}, level, part,
+                 progress_);
     write_stage(criteria, part);
   }
 
@@ -283,12 +376,15 @@ class Run {
   void fill_sum(CriterionResult& line, std::size_t level, bool proved_before) const {
     const WideSteps delaunay = problem_.delaunay[level];
     const double per_unit = steps_per_unit(problem_.sums[level]);
+    const LeftOut left_out = find_left_out(scan_, problem_.sums[level], solution_.label, progress_);
+    const WideSteps result = delaunay + solution_.value.level[level] + left_out.value;
+    const WideSteps bound =
+        delaunay + left_out.least +
+        (proved_before ? solution_.bound.level[level] : least_of_level(problem_.labelling, level));
     line.delaunay = static_cast<double>(delaunay) / per_unit;
-    line.result = static_cast<double>(delaunay + solution_.value.level[level]) / per_unit;
-    const std::int64_t bound =
-        proved_before ? solution_.bound.level[level] : least_of_level(problem_.labelling, level);
-    line.bound = static_cast<double>(delaunay + bound) / per_unit;
-    line.optimal = proved_before && solution_.value.level[level] == bound;
+    line.result = static_cast<double>(result) / per_unit;
+    line.bound = static_cast<double>(bound) / per_unit;
+    line.optimal = proved_before && result == bound;
     line.method = method_name(solution_.figures);
   }
 
@@ -298,6 +394,8 @@ class Run {
     std::int64_t least = 0;  ///< that each term alone gives
   };
 
+  static constexpr int kRounds = 40;  ///< then all vertices are counted
+
   std::span<const Objective> criteria_;
   SolverLimits limits_;
   std::ostream* proof_;
@@ -305,6 +403,7 @@ class Run {
   FirstOrderProblem<Criteria> problem_;
   TermScan scan_;
   std::array<Settled, Criteria> settled_{};
+  std::optional<HeldVertices> held_;
   PitTerms::Outcome pits_ = PitTerms::Outcome::Exact;  ///< of pits after other criteria
   std::vector<Label> known_;  ///< labels within all limits settled so far; empty if there are none
   Solution<Criteria> solution_;

@@ -133,6 +133,38 @@ void refuse_overflow(const Labelling<Criteria>& labelling, std::size_t level, co
 
 namespace {
 
+/// Adds the tables of vertices to a level. Returns their value under labels 0.
+template <std::size_t Criteria>
+WideSteps add_tables(const VertexTerms& terms, Measure measure, std::span<const std::uint8_t> counted,
+                     std::size_t level, Labelling<Criteria>& labelling) {
+  WideSteps kept = 0;
+  for (const std::int64_t value : terms.constants) kept += measure(static_cast<double>(value));
+  for (std::size_t i = 0; i < terms.tables.size(); ++i) {
+    if (!counted.empty() && counted[i] == 0) continue;
+    const std::span<const std::uint32_t> scope = terms.tables.scope(i);
+    Table<Criteria> table{{scope.begin(), scope.end()}, {}};
+    for (const Weight<1>& value : terms.tables.entries(i)) {
+      table.entry.emplace_back()[level] = measure(static_cast<double>(value[0]));
+    }
+    const std::int64_t zero = table.entry.front()[level];
+    kept += zero;
+    for (Weight<Criteria>& entry : table.entry) entry[level] -= zero;
+    table = without_idle(std::move(table));
+    if (!table.scope.empty()) labelling.tables.append(table);
+  }
+  return kept;
+}
+
+/// The least that a wide star measures.
+std::int64_t least_of(const SpokedStar& star, VertexTerm term, Measure measure,
+                      std::optional<std::pair<std::uint32_t, Label>> fixed = std::nullopt) {
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  for (const Star& reached : star.reachable(fixed)) {
+    least = std::min(least, measure(static_cast<double>(term(reached))));
+  }
+  return least;
+}
+
 /// Adds all terms of a criterion to a level. Returns their value on the given TIN.
 template <std::size_t Criteria>
 WideSteps add_terms(const TermScan& scan, const Declaration& declaration, Measure measure, std::size_t level,
@@ -143,19 +175,10 @@ WideSteps add_terms(const TermScan& scan, const Declaration& declaration, Measur
     return sink.delaunay();
   }
   const VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
-  WideSteps delaunay = 0;
-  for (const std::int64_t value : terms.constants) delaunay += measure(static_cast<double>(value));
-  for (std::size_t i = 0; i < terms.tables.size(); ++i) {
-    const std::span<const std::uint32_t> scope = terms.tables.scope(i);
-    Table<Criteria> table{{scope.begin(), scope.end()}, {}};
-    for (const Weight<1>& value : terms.tables.entries(i)) {
-      table.entry.emplace_back()[level] = measure(static_cast<double>(value[0]));
-    }
-    const std::int64_t kept = table.entry.front()[level];
-    delaunay += kept;
-    for (Weight<Criteria>& entry : table.entry) entry[level] -= kept;
-    table = without_idle(std::move(table));
-    if (!table.scope.empty()) labelling.tables.append(table);
+  WideSteps delaunay = add_tables(terms, measure, {}, level, labelling);
+  const std::vector<Label> kept(labelling.size(), Label::Zero);
+  for (const SpokedStar& star : terms.wide) {
+    delaunay += measure(static_cast<double>(declaration.vertex(star.under(kept))));
   }
   return delaunay;
 }
@@ -299,15 +322,33 @@ class LabelledSink {
 };
 
 /// Of all terms under labels 0, rounded up.
-std::int64_t mean_of(const VertexTerms& terms) {
+std::int64_t mean_of(const VertexTerms& terms, std::span<const std::int64_t> wide) {
   std::int64_t sum = 0;
   for (const std::int64_t value : terms.constants) sum += value;
   for (std::size_t i = 0; i < terms.tables.size(); ++i) sum += terms.tables.entries(i).front()[0];
-  const auto count = static_cast<std::int64_t>(terms.constants.size() + terms.tables.size());
+  for (const std::int64_t value : wide) sum += value;
+  const auto count = static_cast<std::int64_t>(terms.constants.size() + terms.tables.size() + wide.size());
   return count == 0 ? 0 : (sum + count - 1) / count;
 }
 
 }  // namespace
+
+LeftOut find_left_out(const TermScan& scan, const Objective& objective, std::span<const Label> label,
+                      const Progress& progress) {
+  LeftOut left_out;
+  const std::vector<Label> kept(label.size(), Label::Zero);
+  for (const Objective::Part& part : objective.parts) {
+    const VertexTerm term = declaration_of(part.criterion).vertex;
+    if (term == nullptr) continue;
+    const Measure measure{sign_of(objective) * part.weight, std::nullopt};
+    for (const SpokedStar& star : find_vertex_terms(scan, term, progress).wide) {
+      const std::int64_t zero = measure(static_cast<double>(term(star.under(kept))));
+      left_out.value += measure(static_cast<double>(term(star.under(label)))) - zero;
+      left_out.least += least_of(star, term, measure) - zero;
+    }
+  }
+  return left_out;
+}
 
 Extreme find_extreme(const TermScan& scan, const Objective& objective, std::span<const std::uint32_t> first,
                      const Progress& progress) {
@@ -315,52 +356,123 @@ Extreme find_extreme(const TermScan& scan, const Objective& objective, std::span
   const Declaration& declaration = declaration_of(objective.parts.front().criterion);
   if (declaration.vertex == nullptr) {
     scan.run(declaration, first, sink, progress);
-  } else {
-    const VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
+    return sink.take();
+  }
+  VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
+  const std::vector<Label> kept(scan.quadrilaterals().size(), Label::Zero);
+  std::vector<std::int64_t> wide;
+  {
     ExtremeSink::Block block(sink);
     for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
     for (std::size_t i = 0; i < terms.tables.size(); ++i) block.table(terms.tables.entries(i));
-    if (declaration.sum_is_fixed) block.at_least(mean_of(terms));
+    for (const SpokedStar& star : terms.wide) {
+      wide.push_back(declaration.vertex(star.under(kept)));
+      std::vector<Weight<1>> values = {{wide.back()}};
+      for (const Star& reached : star.reachable()) values.push_back({declaration.vertex(reached)});
+      block.table(values);
+    }
+    if (declaration.sum_is_fixed) block.at_least(mean_of(terms, wide));
   }
-  return sink.take();
+  Extreme extreme = sink.take();
+  extreme.vertex = std::move(terms);
+  return extreme;
 }
 
 std::int64_t extreme_of(const TermScan& scan, const Objective& objective,
                         std::span<const std::uint32_t> first, std::span<const Label> label,
-                        const Progress& progress) {
+                        const Progress& progress, const VertexTerms* known) {
   LabelledSink sink(sign_of(objective), label);
   const Declaration& declaration = declaration_of(objective.parts.front().criterion);
   if (declaration.vertex == nullptr) {
     scan.run(declaration, first, sink, progress);
-  } else {
-    const VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
+    return sink.worst();
+  }
+  const VertexTerms found =
+      known == nullptr ? find_vertex_terms(scan, declaration.vertex, progress) : VertexTerms{};
+  const VertexTerms& terms = known == nullptr ? found : *known;
+  {
     LabelledSink::Block block(sink);
     for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
     for (std::size_t i = 0; i < terms.tables.size(); ++i) {
       const Slice slice = slice_of(terms.tables.scope(i), label);
       block.constant(static_cast<double>(terms.tables.entries(i)[slice.base][0]));
     }
+    for (const SpokedStar& star : terms.wide) {
+      block.constant(static_cast<double>(declaration.vertex(star.under(label))));
+    }
   }
   return sink.worst();
 }
 
+namespace {
+
+/// A wide star within the limit or not: as much of that as single labels decide.
 template <std::size_t Criteria>
-std::int64_t count_excess(const TermScan& scan, const Objective& objective, std::int64_t most,
+WideSteps add_forced_labels(const SpokedStar& star, VertexTerm term, Measure measure, std::size_t level,
+                            Labelling<Criteria>& labelling) {
+  WideSteps kept = least_of(star, term, measure);
+  if (kept > 0) return kept;
+  for (const std::uint32_t q : star.scope) {
+    if (least_of(star, term, measure, std::pair(q, Label::One)) > 0) ++labelling.unary[q].level[level];
+    if (least_of(star, term, measure, std::pair(q, Label::Zero)) == 0) continue;
+    --labelling.unary[q].level[level];
+    ++kept;
+  }
+  return kept;
+}
+
+template <std::size_t Criteria>
+WideSteps add_wide(const ExcessOptions& options, VertexTerm term, double sign, std::size_t level,
+                   Labelling<Criteria>& labelling) {
+  WideSteps kept = 0;
+  for (const SpokedStar& star : options.vertex->wide) {
+    const std::int64_t least = least_of(star, term, {sign, std::nullopt});
+    const std::int64_t most = options.wide == WideStars::Least ? std::min(least, options.most) : options.most;
+    kept += add_forced_labels(star, term, {sign, most}, level, labelling);
+  }
+  return kept;
+}
+
+}  // namespace
+
+template <std::size_t Criteria>
+std::int64_t count_excess(const TermScan& scan, const Objective& objective, const ExcessOptions& options,
                           std::size_t level, Labelling<Criteria>& labelling, const Progress& progress) {
   for (Cost<Criteria>& cost : labelling.unary) cost.level[level] = 0;
   for (Weight<Criteria>& weight : labelling.weight) weight[level] = 0;
   labelling.tables.clear_level(level);
-  const WideSteps excess = add_terms(scan, declaration_of(objective.parts.front().criterion),
-                                     {sign_of(objective), most}, level, labelling, progress);
+  const Declaration& declaration = declaration_of(objective.parts.front().criterion);
+  const Measure measure{sign_of(objective), options.most};
+  WideSteps excess = 0;
+  if (options.vertex == nullptr) {
+    excess = add_terms(scan, declaration, measure, level, labelling, progress);
+  } else {
+    excess = add_tables(*options.vertex, measure, options.counted, level, labelling);
+    excess += add_wide(options, declaration.vertex, sign_of(objective), level, labelling);
+  }
   labelling.tables.index(labelling.size());
   return static_cast<std::int64_t>(excess);
 }
 
-template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,
+bool mark_excess(const VertexTerms& terms, const Objective& objective, std::int64_t most,
+                 std::span<const Label> label, std::vector<std::uint8_t>& marked) {
+  const Measure measure{sign_of(objective), most};
+  bool any_new = false;
+  for (std::size_t i = 0; i < terms.tables.size(); ++i) {
+    const Slice slice = slice_of(terms.tables.scope(i), label);
+    const auto value = static_cast<double>(terms.tables.entries(i)[slice.base][0]);
+    if (marked[i] != 0 || measure(value) == 0) continue;
+    marked[i] = 1;
+    any_new = true;
+  }
+  return any_new;
+}
+
+template std::int64_t count_excess(const TermScan&, const Objective&, const ExcessOptions&, std::size_t,
                                    Labelling<1>&, const Progress&);
-template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,
+template std::int64_t count_excess(const TermScan&, const Objective&, const ExcessOptions&, std::size_t,
                                    Labelling<2>&, const Progress&);
-template std::int64_t count_excess(const TermScan&, const Objective&, std::int64_t, std::size_t,
+template std::int64_t count_excess(const TermScan&, const Objective&, const ExcessOptions&, std::size_t,
                                    Labelling<4>&, const Progress&);
 
 template WideSteps add_objective(const TermScan&, const Objective&, std::size_t, Labelling<1>&,

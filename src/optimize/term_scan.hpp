@@ -17,11 +17,14 @@ namespace thalweg {
 class TermScan {
  public:
   TermScan(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
-           std::span<const std::uint32_t> owner, Scale scale, const Reference* reference)
-      : faces_{tin, quadrilaterals, owner, scale}, reference_(reference) {}
+           std::span<const std::uint32_t> owner, Scale scale, const Reference* reference,
+           std::uint32_t most_at_vertex = 0)
+      : faces_{tin, quadrilaterals, owner, scale}, reference_(reference), most_at_vertex_(most_at_vertex) {}
   [[nodiscard]] const Tin& tin() const { return faces_.tin; }
   [[nodiscard]] std::span<const Quadrilateral> quadrilaterals() const { return faces_.quadrilaterals; }
   [[nodiscard]] std::span<const std::uint32_t> owner() const { return faces_.owner; }
+  /// Quadrilaterals at a vertex up to which its term is written out as a table.
+  [[nodiscard]] std::uint32_t most_at_vertex() const { return most_at_vertex_; }
 
   /// Rows of neighbours, sides in order, both ways. Complexity: linear, on all threads.
   struct Rows {
@@ -53,6 +56,7 @@ class TermScan {
 
   LabelledFaces faces_;
   const Reference* reference_;
+  std::uint32_t most_at_vertex_;
 };
 
 template <class Sink>

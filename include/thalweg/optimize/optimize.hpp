@@ -66,9 +66,9 @@ struct OptimizeResult {
 /// Pre: the quadrilaterals are strictly convex, unconstrained pairs of triangles of the TIN, no two of which
 /// share a triangle. Heights are finite.
 /// Throws: Error{Usage} if a criterion is repeated or lacks its reference, a unit is not positive or the
-/// width limit is out of range; Error{SizeLimit} from 2^28 edges on; Error{Unsupported} if a criterion of
-/// vertices is asked for where more than 20 quadrilaterals meet at a vertex; Error{Cancelled}. Complexity:
-/// linear but for pieces that stay wide; runs on all threads.
+/// width limit is out of range; Error{SizeLimit} from 2^28 edges on; Error{Cancelled}. Complexity: linear but
+/// for pieces that stay wide, and 2^k for k quadrilaterals at a vertex where a criterion of vertices depends
+/// on them, k <= 20; where it depends on more, that vertex is taken at its best in the bound.
 OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                     const OptimizeOptions& options, Progress& progress);
 
