@@ -1,18 +1,22 @@
 #!/usr/bin/env python3
 """Every criterion on each real terrain at full resolution, with lines: what it gives, what is proved, what it costs.
 
-Usage: criteria_table.py BINARY TERRAINS [TERRAIN...] > table.md
+Usage: criteria_table.py [--verify] BINARY TERRAINS [TERRAIN...] > table.md
 
 Prints a markdown table, a line a run: the value of the Delaunay TIN, the result, the bound, `optimal` or the gap
 (difference of result and bound over the result), pieces and the quadrilaterals of the largest, the width of the
 largest table, the seconds of `optimize` in the report. vertical-error takes the terrain's 8000 significant points in
 place of the DEM, and the DEM as reference.
+
+With --verify: what `thalweg verify` says of each result with its report and its proof: how many claims hold, which
+are not checked, which are broken, and the seconds that it takes.
 """
 import json
 import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 CRITERIA = ["local-minima", "normal-angle-sum", "normal-angle-squares", "normal-angle-max", "max-area", "max-angle",
             "min-angle", "edge-length", "area-ratio-max", "area-ratio-sum", "convex-vertices", "mixed-vertices",
@@ -43,7 +47,7 @@ def number(value):
 
 def row(binary, terrain, sources, criterion, work):
     command = [binary, "build", *sources, f"{work}/t.ply", "--overwrite", "--report", f"{work}/r.json", "-q",
-               "--optimize", criterion, *(["--effort", "20000000"] if criterion == "max-degree" else [])]
+               "--optimize", criterion]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         print(f"{terrain} {criterion}: {done.stderr.strip()}", file=sys.stderr)
@@ -57,16 +61,40 @@ def row(binary, terrain, sources, criterion, work):
           f"| {report['timings_s']['optimize']:.2f} |", flush=True)
 
 
+def verified(binary, terrain, sources, criterion, work):
+    command = [binary, "build", *sources, f"{work}/t.ply", "--overwrite", "--report", f"{work}/r.json", "-q",
+               "--optimize", criterion, "--proof", f"{work}/p.proof"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        print(f"{terrain} {criterion}: {done.stderr.strip()}", file=sys.stderr)
+        return
+    reference = sources[sources.index("--reference"):][:2] if "--reference" in sources else []
+    started = time.monotonic()
+    done = subprocess.run([binary, "verify", f"{work}/t.ply", "--report", f"{work}/r.json", "--proof", f"{work}/p.proof",
+                           *reference, "-f", "json", "-q"], capture_output=True, text=True)
+    seconds = time.monotonic() - started
+    claims = json.loads(done.stdout)["findings"]
+    of = {verdict: [c["claim"] for c in claims if c["verdict"] == verdict] for verdict in ("holds", "not checked", "BROKEN")}
+    print(f"| {terrain} | {criterion} | {len(of['holds'])} | {'; '.join(of['not checked'])} | {'; '.join(of['BROKEN'])} "
+          f"| {done.returncode} | {seconds:.1f} |", flush=True)
+
+
 def main():
-    binary, root, chosen = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:]
-    print("| terrain | criterion | Delaunay | result | bound | proved | pieces | largest | width | seconds |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    verifies = sys.argv[1] == "--verify"
+    binary, root, *chosen = sys.argv[2 if verifies else 1:]
+    root = pathlib.Path(root)
+    if verifies:
+        print("| terrain | criterion | claims that hold | not checked | broken | status | seconds |")
+        print("|---|---|---|---|---|---|---|")
+    else:
+        print("| terrain | criterion | Delaunay | result | bound | proved | pieces | largest | width | seconds |")
+        print("|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as work:
         for terrain, sources, thinned in terrains(root):
             for criterion in CRITERIA if not chosen or terrain in chosen else []:
                 with_reference = criterion == "vertical-error"
                 if not with_reference or thinned:
-                    row(binary, terrain, thinned if with_reference else sources, criterion, work)
+                    (verified if verifies else row)(binary, terrain, thinned if with_reference else sources, criterion, work)
 
 
 main()
