@@ -19,8 +19,7 @@ struct Scene {
 };
 
 /// A scene with at most `limit` quadrilaterals; heights are whole numbers below `levels`.
-inline Scene random_scene(Random& random, std::size_t limit, int levels) {
-  const bool lattice = random.integer(0, 2) == 0;
+inline Scene random_scene(Random& random, std::size_t limit, int levels, bool lattice) {
   std::set<Point2> places;
   const auto columns = random.integer<std::size_t>(2, 5), rows = random.integer<std::size_t>(2, 5);
   if (lattice) {
@@ -51,6 +50,12 @@ inline Scene random_scene(Random& random, std::size_t limit, int levels) {
   scene.quadrilaterals = find_quadrilaterals(scene.tin, {}, progress);
   if (scene.quadrilaterals.size() > limit) scene.quadrilaterals.resize(limit);
   return scene;
+}
+
+/// One in three is a lattice.
+inline Scene random_scene(Random& random, std::size_t limit, int levels) {
+  const bool lattice = random.integer(0, 2) == 0;
+  return random_scene(random, limit, levels, lattice);
 }
 
 }  // namespace thalweg::test

@@ -87,18 +87,21 @@ void check_pair(const Scene& scene, const Enumerated& all, const CriterionTraits
 }
 
 #ifdef THALWEG_MANY_SCENES
-constexpr int kScenes = 200;
-constexpr std::size_t kQuadrilaterals = 11;
+constexpr int kScenes = 300;
+constexpr std::size_t kQuadrilaterals = 11, kMostQuadrilaterals = 16;
 #else
 constexpr int kScenes = 100;
-constexpr std::size_t kQuadrilaterals = 8;
+constexpr std::size_t kQuadrilaterals = 8, kMostQuadrilaterals = 8;
 #endif
 
 TEST(Criteria, AloneAndInPairsAreTheBestOfAll) {
   Random random;
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < kScenes && !HasFailure(); ++i) {
-    const Scene scene = random_scene(random, kQuadrilaterals, random.integer(2, 6));
+    const bool lattice = i % 3 == 0;
+    const std::size_t limit =
+        lattice ? kMostQuadrilaterals : random.integer<std::size_t>(4, kMostQuadrilaterals);
+    const Scene scene = random_scene(random, limit, random.integer(2, 6), lattice);
     SCOPED_TRACE("scene " + std::to_string(i));
     const Enumerated all = enumerate(scene);
     for (const CriterionTraits& first : criteria_of_the_tin()) {
