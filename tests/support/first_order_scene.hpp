@@ -8,6 +8,7 @@
 #include <thalweg/order/quadrilaterals.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct Scene {
   Tin tin;
   std::vector<Quadrilateral> quadrilaterals;
 };
+
+/// How many scenes a long test takes: as many as usual, or as the environment variable THALWEG_SCENES says.
+inline int scene_count(int usual) {
+  const char* wanted = std::getenv("THALWEG_SCENES");
+  return wanted != nullptr ? std::max(1, std::atoi(wanted)) : usual;
+}
 
 /// A scene with at most `limit` quadrilaterals; heights are whole numbers below `levels`.
 inline Scene random_scene(Random& random, std::size_t limit, int levels, bool lattice) {

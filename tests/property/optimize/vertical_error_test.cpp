@@ -109,7 +109,7 @@ void expect_best(const Scene& scene, const Reference& reference, const std::vect
 }
 
 #ifdef THALWEG_MANY_SCENES
-constexpr int kScenes = 300;
+constexpr int kScenes = 40;
 constexpr std::size_t kMostQuadrilaterals = 16;
 #else
 constexpr int kScenes = 60;
@@ -119,7 +119,7 @@ constexpr std::size_t kMostQuadrilaterals = 8;
 TEST(VerticalError, AloneAndInPairsIsTheBestOfAll) {
   Random random;
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < kScenes && !HasFailure(); ++i) {
+  for (int i = 0; i < scene_count(kScenes) && !HasFailure(); ++i) {
     const bool lattice = i % 3 == 0;
     const std::size_t limit =
         lattice ? kMostQuadrilaterals : random.integer<std::size_t>(4, kMostQuadrilaterals);
