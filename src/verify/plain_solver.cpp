@@ -8,6 +8,7 @@
 //    labels.
 #include "verify/plain_solver.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <set>
 #include <utility>
@@ -15,6 +16,9 @@
 namespace thalweg::verify {
 
 namespace {
+
+/// Of all tables that are made: of 48 bytes each, so that no problem takes more than 1.6 GB.
+constexpr std::size_t kMostEntries = std::size_t{1} << 25U;
 
 class Minimiser {
  public:
@@ -70,10 +74,12 @@ class Minimiser {
       degree[q] = sum_.neighbours(q).size();
       open.emplace(degree[q], q);
     }
+    std::size_t entries = 0;
     while (!open.empty()) {
       progress_.check();
       const auto [width, q] = *open.begin();
-      if (width > width_limit_) return false;
+      entries += std::size_t{1} << std::min(width, width_limit_);
+      if (width > width_limit_ || entries > kMostEntries) return false;
       open.erase(open.begin());
       steps_.push_back(sum_.eliminate(q));
       for (const Index neighbour : steps_.back().scope) {

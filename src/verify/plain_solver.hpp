@@ -17,7 +17,7 @@ struct PlainOptimum {
 };
 
 /// The least sum of all factors, and labels that reach it; none if a table would depend on more than
-/// `width_limit` variables. Throws: Error{Cancelled}.
+/// `width_limit` variables, or all tables together would take more than 1.6 GB. Throws: Error{Cancelled}.
 std::optional<PlainOptimum> minimise(std::size_t variables, std::vector<Factor> factors,
                                      std::size_t width_limit, Progress& progress);
 

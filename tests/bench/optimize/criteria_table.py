@@ -73,6 +73,9 @@ def verified(binary, terrain, sources, criterion, work):
     done = subprocess.run([binary, "verify", f"{work}/t.ply", "--report", f"{work}/r.json", "--proof", f"{work}/p.proof",
                            *reference, "-f", "json", "-q"], capture_output=True, text=True)
     seconds = time.monotonic() - started
+    if done.returncode not in (0, 1) or not done.stdout:
+        print(f"verify {terrain} {criterion}: status {done.returncode} {done.stderr.strip()}", file=sys.stderr)
+        return
     claims = json.loads(done.stdout)["findings"]
     of = {verdict: [c["claim"] for c in claims if c["verdict"] == verdict] for verdict in ("holds", "not checked", "BROKEN")}
     print(f"| {terrain} | {criterion} | {len(of['holds'])} | {'; '.join(of['not checked'])} | {'; '.join(of['BROKEN'])} "
