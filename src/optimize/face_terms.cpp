@@ -8,9 +8,12 @@
 #include "base/parallel.hpp"
 #include "optimize/ties.hpp"
 
+#include <thalweg/base/assert.hpp>
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -239,7 +242,48 @@ class FaceLabeller {
       spread(groups_[here.opposite], count);
     }
     const auto sum = find_least_sum(terms_.faces, face_, weights, kFrontLimit);
-    return sum ? *sum : std::int64_t{size} * *std::min_element(weights.begin(), weights.end());
+    THALWEG_ASSERT(!sum || least_by_area(weights, size) <= *sum);
+    return sum ? *sum : least_by_area(weights, size);
+  }
+
+  /// Spreads the weight of each triangle over its area: a triangulation covers each ground triangle once, at
+  /// no less than the least weight by area of those that overlap it. Two triangles on the same vertices
+  /// overlap exactly if they are the same or some of their sides cross.
+  [[nodiscard]] std::int64_t least_by_area(std::span<const std::int64_t> weights, std::uint32_t size) const {
+    std::vector<std::size_t> ground;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (is_ground(triangles_[i])) ground.push_back(i);
+    }
+    if (ground.size() != size) {
+      return std::int64_t{size} * *std::min_element(weights.begin(), weights.end());
+    }
+    constexpr long double kRounding = 1e-12L;  // far above that of all operations here
+    long double sum = 0, rounding = 0;
+    for (const std::size_t i : ground) {
+      long double least = by_area(weights, i);
+      for (const std::uint32_t side : terms_.faces.sides[triangles_[i]]) {
+        for (const std::uint32_t crossing : terms_.faces.crossings.row(side / 2)) {
+          for (const std::uint32_t other : {2 * crossing, 2 * crossing + 1}) {
+            for (const std::uint32_t t : terms_.sides.triangles.row(other)) {
+              least = std::min(least, by_area(weights, index_of(t)));
+            }
+          }
+        }
+      }
+      sum += least * corners_[i].normal.z;
+      rounding += std::abs(least * corners_[i].normal.z) * kRounding;
+    }
+    return static_cast<std::int64_t>(std::floor(sum - rounding));
+  }
+
+  [[nodiscard]] long double by_area(std::span<const std::int64_t> weights, std::size_t i) const {
+    return static_cast<long double>(weights[i]) / corners_[i].normal.z;
+  }
+
+  [[nodiscard]] bool is_ground(std::uint32_t triangle) const {
+    const auto& [a, b, c] = terms_.faces.triangles[triangle].corners;
+    const HalfedgeId ab = terms_.tin.find_halfedge(a, b);
+    return ab.valid() && terms_.tin.apex(ab) == c;
   }
 
   [[nodiscard]] std::size_t index_of(std::uint32_t triangle) const {

@@ -97,7 +97,7 @@ struct FaceLabels {
 /// One label in the place of all triangulations of a face: it costs no more than any of them under any labels
 /// of the neighbours. At each side it has a class of its own, after the candidates (LabelNetwork couples it
 /// at the least cost), and it joins what any candidate edge of the face joins. Complexity: pairs of
-/// candidates at the face's edges, and its fronts.
+/// candidates at the face's edges, and its fronts or pairs of edges that cross.
 template <std::size_t Criteria>
 FaceLabels<Criteria> relax_face(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links,
                                 std::size_t face, std::uint32_t size);
