@@ -1,9 +1,9 @@
 // Which vertices can share a triangle of order at most k with u?
 //
 // 1. A side uv of a valid triangle runs free, or is a constraint edge: u sees v, past no vertex. All such v
-// are met by
-//    following the gaps of the view from u through the faces, cut at each vertex (as in sights.cpp), nearest
-//    first.
+//    are met by following the gaps of the view from u through the faces, cut at each vertex (as in
+//    sights.cpp), nearest first. Edges at u that block part the ground around it into fans, each searched
+//    alone: no valid triangle at u has such an edge inside.
 // 2. Let t be a valid triangle at u with order <= k and disc D. Of the vertices x in D that u sees, many must
 // count:
 //    a. Visible. Say no constraint edge at u lies between the directions of x and of t. Then x counts under
@@ -19,10 +19,9 @@
 //       of t, at least 60 degrees, then by the law of sines |uq| <= |ux| / sin 60. Beyond vw, x counts
 //       anyway, because it sees u.
 // 3. A gap is given up when every disc through u and any place in the gap as far as its edge, or farther,
-// holds more
-//    than k vertices that count by 2: no v there has a triangle of order <= k with u. For 2b the ends within
-//    reach of x must be known: gaps go by distance, so all nearer ends are, save those in gaps given up,
-//    in whose directions certainty ends.
+//    holds more than k vertices that count by 2: no v there has a triangle of order <= k with u. For 2b the
+//    ends within reach of x must be known: gaps go by distance, so all nearer ends are, save those in gaps
+//    given up, in whose directions certainty ends.
 // 4. Inversion about u turns discs through u into half-planes: x lies in the disc through u and f with centre
 //    in direction c exactly if x* c > f* c, where x* = x / |x|^2. The far part of a gap becomes a set that a
 //    triangle with corners u, f1, f2 holds. So each x covers the directions c with (x* - f1) c > 0 and (x* -
@@ -31,7 +30,16 @@
 //    all c is halved until more than k vertices cover both ends of each part, or some direction is found that
 //    no more than k cover; that one is tried first on the gaps that come from this one. Most are settled by
 //    the few nearest vertices, which come first.
-// 5. This part alone is done in rounded arithmetic, with covers made smaller and discs larger by far more
+// 5. Visible, where k is small: most gaps are given up, or gone on with, by disc_depth.cpp, which looks at
+// all
+//    directions c at once, and at the ends a, b of the gap's edge: if free segment uv crosses it, every disc
+//    through u and v has a or b inside. (Edge ab has a circle that holds no vertex which sees a point of its
+//    inside. The two that see the crossing of ab and uv are u and v. If a, b were outside the one circle, and
+//    u, v outside the other, the product of the lengths from the crossing to a and b would be at least, and
+//    at most, that to u and v; equality is for the tie rule, which is a perturbation.) If a is one that
+//    counts, a disc through u with a inside and at most k holds at most k - 1 beside it.
+// 6. This part alone, 3 to 5, is done in rounded arithmetic, with covers made smaller and discs larger by far
+// more
 //    than its errors: it decides what is searched, not what is found. What u sees is decided exactly.
 //
 // Where directions are compared they are measured by the diamond angle, which grows with the angle from 0 to
@@ -52,7 +60,12 @@ constexpr double kAngleSlack = 1e-11;
 constexpr double kCoverSlack = 1e-10;
 // A gap is tested again once it is that much farther: few more are searched, and many tests saved.
 constexpr double kFarther = 1.1;
+// The same for gaps that disc_depth.cpp has not given up, from that many times the mean distance of the
+// neighbours on: it is too coarse only for far and narrow gaps.
+constexpr double kMuchFarther = 1.5;
+constexpr double kFar = 2;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+constexpr double kPi = 3.14159265358979323846;
 
 double diamond_angle(double x, double y) {
   const double share = x / (std::abs(x) + std::abs(y));
@@ -94,61 +107,156 @@ Direction scaled(Direction a, double factor) {
 
 }  // namespace
 
-std::span<const FanSearch::Partner> FanSearch::partners(const Ground& ground, VertexId u, std::size_t k,
-                                                        FanPruning pruning) {
+void FanSearch::start(const Ground& ground, VertexId u, std::size_t k, FanPruning pruning) {
   ground_ = &ground;
   u_ = u;
   at_ = ground.point(u);
   k_ = k;
   pruning_ = pruning;
+  tabled_ = pruning == FanPruning::Visible && k <= DiscDepth::kMostDepth;
+  fans_.clear();
+  const auto around = ground.tin().outgoing(u);
+  for (const HalfedgeId h : around) {
+    if (starts_fan(h)) fans_.push_back(h);
+  }
+  closed_ = fans_.empty();
+  if (closed_ && !around.empty()) fans_.push_back(around.front());
+}
+
+bool FanSearch::next_fan() {
+  if (fans_.empty()) return false;
+  const HalfedgeId first = fans_.back();
+  fans_.pop_back();
+  enter_fan(first);
+  open_gaps(first);
   const auto by_distance = [](const Gap& a, const Gap& b) { return farther(a.distance, b.distance); };
-  start();
   while (!gaps_.empty()) {
     std::pop_heap(gaps_.begin(), gaps_.end(), by_distance);
     const Gap gap = gaps_.back();
     gaps_.pop_back();
     expand(gap);
   }
-  partners_.clear();
-  for (const Seen& seen : seen_) {
-    const Direction to{seen.x / seen.distance, seen.y / seen.distance};
-    const Direction at{seen.inverse.x * kWider, seen.inverse.y * kWider};
-    Direction open;
-    if (hopeless({seen.angle, seen.angle, to, to, at, at, kUnbounded}, open)) continue;
-    partners_.push_back({seen.vertex, seen.angle});
-  }
-  return partners_;
+  collect();
+  return true;
 }
 
-void FanSearch::start() {
+// Lists the neighbours of u in the fan.
+void FanSearch::enter_fan(HalfedgeId first) {
   gaps_.clear();
   seen_.clear();
+  behind_.clear();
   stops_.clear();
-  sectors_.fill(kUnbounded);
+  if (pruning_ == FanPruning::NearEnds) sectors_.fill(kUnbounded);
   nearest_stop_ = kUnbounded;
   const Tin& tin = ground_->tin();
-  for (const HalfedgeId h : tin.outgoing(u_)) {
+  const auto square = [&](VertexId v) {
+    const Point2 p = ground_->point(v);
+    return (p.x - at_.x) * (p.x - at_.x) + (p.y - at_.y) * (p.y - at_.y);
+  };
+  scale_ = square(tin.target(first));
+  for (HalfedgeId h = first;;) {
+    scale_ = std::min(scale_, square(tin.apex(h)));
+    h = tin.twin(Tin::previous(h));
+    if (!h.valid() || h == first || starts_fan(h)) break;
+  }
+  scale_ = std::sqrt(scale_);
+  see(tin.target(first), 0);
+  first_ = scaled({seen_[0].x, seen_[0].y}, 1 / seen_[0].distance);
+  for (HalfedgeId h = first;;) {
     const HalfedgeId last = Tin::previous(h);
-    see(tin.target(h));
-    if (ground_->blocks(h)) stop_at(tin.target(h), 0);
-    if (tin.on_rim(last)) {
-      see(tin.apex(h));
-      if (ground_->blocks(last)) stop_at(tin.apex(h), 0);
-    }
-    push(Tin::next(h), {ground_->point(tin.target(h)), ground_->point(tin.apex(h))}, 0, 0, {});
+    h = tin.twin(last);
+    if (h == first && closed_) break;
+    const auto before = static_cast<std::uint32_t>(seen_.size() - 1);
+    const VertexId v = tin.origin(last);
+    seen_[before].next = see(v, std::max(seen_[before].turn, turn_of(before, ground_->point(v))));
+    if (h.valid() && !starts_fan(h)) continue;
+    if (pruning_ == FanPruning::NearEnds && ground_->blocks(last)) stop_at(v, 0);
+    break;
+  }
+  if (pruning_ == FanPruning::NearEnds && ground_->blocks(first)) stop_at(tin.target(first), 0);
+}
+
+void FanSearch::open_gaps(HalfedgeId first) {
+  const Tin& tin = ground_->tin();
+  const double breadth = seen_.back().turn;
+  narrow_ = closed_ || breadth < kPi;
+  // One edge that blocks alone may be both sides of the fan.
+  if (pruning_ == FanPruning::NearEnds && !closed_ && seen_.front().vertex == seen_.back().vertex) {
+    seen_.back().slack = kUnbounded;
+  }
+  if (tabled_) {
+    counted_.clear();
+    depth_.reset(k_, closed_, breadth);
+    for (std::uint32_t i = 0; i < seen_.size(); ++i) count(i);
+  }
+  far_ = 0;
+  for (const Seen& seen : seen_) far_ += kFar * seen.distance / static_cast<double>(seen_.size());
+  HalfedgeId h = first;
+  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    if (!closed_ && i + 1 == seen_.size()) break;
+    push(Tin::next(h), {.right = i, .left = seen_[i].next, .tested = tabled_ ? far_ : 0});
+    h = tin.twin(Tin::previous(h));
   }
 }
 
-void FanSearch::see(VertexId v) {
+std::uint32_t FanSearch::see(VertexId v, double turn) {
   const Point2 p = ground_->point(v);
   Seen seen{.vertex = v, .x = p.x - at_.x, .y = p.y - at_.y};
   const double square = seen.x * seen.x + seen.y * seen.y;
   seen.distance = std::sqrt(square);
-  seen.angle = diamond_angle(seen.x, seen.y);
-  seen.inverse = {seen.x / square, seen.y / square};
-  seen.slack = kCoverSlack / seen.distance;
+  seen.turn = turn;
+  seen.inverse = {seen.x / square * scale_, seen.y / square * scale_};
+  seen.slack = kCoverSlack / seen.distance * scale_;
+  if (pruning_ == FanPruning::NearEnds) {
+    seen.angle = diamond_angle(seen.x, seen.y);
+    if (ground_->blocks(v)) stop_at(v, seen.distance);
+  }
   seen_.push_back(seen);
-  if (pruning_ == FanPruning::NearEnds && ground_->blocks(v)) stop_at(v, seen.distance);
+  return static_cast<std::uint32_t>(seen_.size() - 1);
+}
+
+void FanSearch::count(std::uint32_t seen) {
+  counted_.insert(seen_[seen].vertex.value());
+  const Direction at = seen_[seen].inverse;
+  depth_.insert({dot(first_, at), first_.x * at.y - first_.y * at.x, seen_[seen].turn});
+}
+
+// Of a position less than half a turn from one that was seen.
+double FanSearch::turn_of(std::uint32_t from, Point2 p) const {
+  const Seen& seen = seen_[from];
+  const double x = p.x - at_.x, y = p.y - at_.y;
+  return seen.turn + std::atan2(seen.x * y - seen.y * x, seen.x * x + seen.y * y);
+}
+
+Inverted FanSearch::inverted(Point2 p, double turn) const {
+  const double x = p.x - at_.x, y = p.y - at_.y;
+  const double factor = scale_ / (x * x + y * y);
+  return {(first_.x * x + first_.y * y) * factor, (first_.x * y - first_.y * x) * factor, turn};
+}
+
+// Lists those of the vertices seen that can be partners, in order.
+void FanSearch::collect() {
+  partners_.clear();
+  std::uint32_t i = 0;
+  do {
+    const Seen& seen = seen_[i];
+    i = seen.next;
+    if (pruning_ != FanPruning::None && hopeless_at(seen)) continue;
+    partners_.push_back({seen.vertex, {seen.inverse.x, seen.inverse.y, seen.turn}});
+  } while (i != 0);
+}
+
+bool FanSearch::hopeless_at(const Seen& seen) {
+  if (tabled_) {
+    const Inverted at = inverted(ground_->point(seen.vertex), seen.turn);
+    if (!depth_.reaches(at, k_, seen.turn, seen.turn)) return true;
+    if (seen.distance < kMuchFarther * far_) return false;
+  }
+  const Direction to{seen.x / seen.distance, seen.y / seen.distance};
+  const Direction at{seen.x / seen.distance * (scale_ / seen.distance) * kWider,
+                     seen.y / seen.distance * (scale_ / seen.distance) * kWider};
+  Direction open;
+  return hopeless({seen.turn, seen.turn, seen.angle, seen.angle, to, to, at, at, kUnbounded}, open);
 }
 
 void FanSearch::stop_at(VertexId v, double distance) {
@@ -165,52 +273,88 @@ void FanSearch::add_stop(const Stop& stop) {
 
 void FanSearch::give_up(const Gap& gap) {
   if (pruning_ != FanPruning::NearEnds) return;
-  const Point2 right = gap.angle.right, left = gap.angle.left;
-  const double from = diamond_angle(right.x - at_.x, right.y - at_.y);
-  const double turn = turn_between(from, diamond_angle(left.x - at_.x, left.y - at_.y));
-  add_stop({{}, normal(from + turn / 2), gap.distance});
+  const double from = seen_[gap.right].angle;
+  add_stop({{}, normal(from + turn_between(from, seen_[gap.left].angle) / 2), gap.distance});
 }
 
-void FanSearch::push(HalfedgeId edge, const Angle& angle, double distance, double tested, Direction open) {
+void FanSearch::push(HalfedgeId edge, Gap gap) {
   if (ground_->blocks(edge) || ground_->tin().on_rim(edge)) return;
-  Gap gap{edge, angle, distance, tested, open};
-  gap.distance = std::max(distance, distance_to(gap));
+  gap.edge = edge;
+  gap.distance = std::max(gap.distance, distance_to(gap));
   gaps_.push_back(gap);
   std::push_heap(gaps_.begin(), gaps_.end(),
                  [](const Gap& a, const Gap& b) { return farther(a.distance, b.distance); });
 }
 
-void FanSearch::expand(const Gap& gap) {
-  const Direction right{gap.angle.right.x - at_.x, gap.angle.right.y - at_.y};
-  const Direction left{gap.angle.left.x - at_.x, gap.angle.left.y - at_.y};
-  const double right_length = length(right);
-  const double left_length = length(left);
-  const double cosine = dot(right, left) / (right_length * left_length);
-  Direction open = gap.open;
-  double tested = gap.tested;
-  if (cosine > -0.5 && gap.distance > kFarther * gap.tested) {
-    tested = gap.distance;
-    const double size = kWider / (gap.distance * std::sqrt((1 + std::min(cosine, 1.0)) / 2));
-    const Direction to_right = scaled(right, 1 / right_length), to_left = scaled(left, 1 / left_length);
-    const Range range{diamond_angle(right.x, right.y), diamond_angle(left.x, left.y), to_right,    to_left,
-                      scaled(to_right, size),          scaled(to_left, size),         gap.distance};
-    if (hopeless(range, open)) return give_up(gap);
+// Whether no disc of order <= k through u and a vertex of the gap has an end of its edge inside.
+bool FanSearch::out_of_reach(const Gap& gap) const {
+  const double from = seen_[gap.right].turn;
+  double to = seen_[gap.left].turn;
+  if (to < from) to += 2 * kPi;
+  const Tin& tin = ground_->tin();
+  for (const VertexId v : {tin.origin(gap.edge), tin.target(gap.edge)}) {
+    const bool counts = v == seen_[gap.right].vertex || v == seen_[gap.left].vertex ||
+                        (narrow_ && counted_.contains(v.value()));
+    if (counts && k_ == 0) continue;
+    const Point2 p = ground_->point(v);
+    if (depth_.reaches(inverted(p, turn_of(gap.right, p)), counts ? k_ - 1 : k_, from, to)) return false;
   }
+  return true;
+}
+
+bool FanSearch::gives_up(Gap& gap) {
+  if (pruning_ == FanPruning::None) return false;
+  if (tabled_ && out_of_reach(gap)) return true;
+  if (gap.distance <= (tabled_ ? kMuchFarther : kFarther) * gap.tested) return false;
+  const Seen& right = seen_[gap.right];
+  const Seen& left = seen_[gap.left];
+  const double cosine = (right.x * left.x + right.y * left.y) / (right.distance * left.distance);
+  if (cosine <= -0.5) return false;
+  gap.tested = gap.distance;
+  const double size = kWider * scale_ / (gap.distance * std::sqrt((1 + std::min(cosine, 1.0)) / 2));
+  const Direction to_right = scaled({right.x, right.y}, 1 / right.distance);
+  const Direction to_left = scaled({left.x, left.y}, 1 / left.distance);
+  return hopeless({right.turn, left.turn, right.angle, left.angle, to_right, to_left, scaled(to_right, size),
+                   scaled(to_left, size), gap.distance},
+                  gap.open);
+}
+
+void FanSearch::expand(const Gap& from) {
+  Gap gap = from;
+  if (gives_up(gap)) return give_up(gap);
   const HalfedgeId entry = ground_->tin().twin(gap.edge);
   const VertexId apex = ground_->tin().apex(entry);
   const Point2 p = ground_->point(apex);
-  const int of_right = orientation(at_, gap.angle.right, p);
-  const int of_left = orientation(at_, p, gap.angle.left);
+  const int of_right = orientation(at_, at(gap.right), p);
+  const int of_left = orientation(at_, p, at(gap.left));
   if (of_right > 0 && of_left > 0) {
-    see(apex);
-    push(Tin::next(entry), {gap.angle.right, p}, gap.distance, tested, open);
-    push(Tin::previous(entry), {p, gap.angle.left}, gap.distance, tested, open);
+    const double low = seen_[gap.right].turn, high = seen_[gap.left].turn;
+    const double turn = std::max(low, turn_of(gap.right, p));
+    const std::uint32_t middle = see(apex, low < high ? std::min(high, turn) : turn);
+    if (tabled_) count(middle);
+    seen_[middle].next = gap.left;
+    seen_[gap.right].next = middle;
+    Gap right = gap, left = gap;
+    right.left = left.right = middle;
+    push(Tin::next(entry), right);
+    push(Tin::previous(entry), left);
     return;
   }
-  if ((of_right == 0 || of_left == 0) && pruning_ == FanPruning::NearEnds && ground_->blocks(apex)) {
-    stop_at(apex, length({p.x - at_.x, p.y - at_.y}));
+  if (of_right == 0 || of_left == 0) note_behind(of_right == 0 ? gap.right : gap.left, apex);
+  push(of_right <= 0 ? Tin::previous(entry) : Tin::next(entry), gap);
+}
+
+// Comes up to twice, from both sides.
+void FanSearch::note_behind(std::uint32_t seen, VertexId v) {
+  const Point2 p = ground_->point(v);
+  if (pruning_ == FanPruning::NearEnds && ground_->blocks(v)) {
+    stop_at(v, length({p.x - at_.x, p.y - at_.y}));
   }
-  push(of_right <= 0 ? Tin::previous(entry) : Tin::next(entry), gap.angle, gap.distance, tested, open);
+  const bool known =
+      std::any_of(behind_.begin(), behind_.end(), [&](const Partner& one) { return one.vertex == v; });
+  if (known) return;
+  const double x = p.x - at_.x, y = p.y - at_.y, factor = scale_ / (x * x + y * y);
+  behind_.push_back({v, {x * factor, y * factor, seen_[seen].turn}});
 }
 
 // The distance of the edge's part within the angle. Where the edge is seen too flat for its cuts to be
@@ -232,8 +376,8 @@ double FanSearch::distance_to(const Gap& gap) const {
     if (std::abs(across) < kFlat * edge_length * length({x, y})) return kUnbounded;
     return (y * start_x - x * start_y) / across;
   };
-  const double from = cut(gap.angle.right);
-  const double to = cut(gap.angle.left);
+  const double from = cut(at(gap.right));
+  const double to = cut(at(gap.left));
   if (from < kUnbounded) low = std::clamp(from, 0.0, 1.0);
   if (to < kUnbounded) high = std::clamp(to, low, 1.0);
   const double foot = std::clamp(-(start_x * along_x + start_y * along_y) / length_square, low, high);
@@ -242,8 +386,11 @@ double FanSearch::distance_to(const Gap& gap) const {
 }
 
 bool FanSearch::certain(const Range& range, const Seen& seen) const {
+  if (pruning_ == FanPruning::Visible) {
+    return narrow_ || (seen.turn > range.left_turn - kPi && seen.turn < range.right_turn + kPi);
+  }
   const double reach = kReach * seen.distance;
-  if (pruning_ == FanPruning::NearEnds && reach > range.horizon) return false;
+  if (reach > range.horizon) return false;
   if (reach < nearest_stop_) return true;
   const double breadth = turn_between(range.right, range.left);
   const double from_right = turn_between(range.right, seen.angle);
@@ -344,7 +491,7 @@ bool FanSearch::hopeless(Range range, Direction& open) {
   const Probe last = probe(range, {-range.to_left.y, range.to_left.x});
   if (!activate(range, {first, right, left, last}, open)) return false;
   return deep_between(range, first, right, kHalvings, open) &&
-         (range.right == range.left || deep_between(range, right, left, kHalvings, open)) &&
+         (range.right_turn == range.left_turn || deep_between(range, right, left, kHalvings, open)) &&
          deep_between(range, left, last, kHalvings, open);
 }
 

@@ -2,7 +2,9 @@
 
 /// The vertices that can share a triangle of low order with one vertex: a search outward from it.
 
+#include "order/disc_depth.hpp"
 #include "order/ground.hpp"
+#include "order/stamped_map.hpp"
 
 #include <array>
 #include <cstdint>
@@ -19,23 +21,35 @@ enum class FanPruning : std::uint8_t {
 };
 
 /// Searches around one vertex after the other; scratch memory is reused.
+///
+/// The ground around a vertex u falls into fans: what lies between two edges at u that block or are on the
+/// rim, or all around. No valid triangle at u has corners in the inside of two of them.
 class FanSearch {
  public:
   /// A vertex that u sees, along no other vertex.
   struct Partner {
     VertexId vertex;
-    double angle = 0;  ///< diamond angle of its direction, in [0, 4), rounded
+    Inverted
+        inverse;  ///< its position inverted about u, times a scale; `turn` is from the fan's first direction
   };
-
   struct Direction {
     double x = 0, y = 0;
     bool operator==(const Direction&) const = default;
   };
 
-  /// Finds each vertex v that u sees, and that can be a corner with u of a valid triangle of order at most k:
-  /// with FanPruning::NearEnds, only as far as the triangle's largest angle is at u. Others may be among
-  /// them. Complexity: the faces of the ground in each gap of the view that is not given up.
-  std::span<const Partner> partners(const Ground& ground, VertexId u, std::size_t k, FanPruning pruning);
+  void start(const Ground& ground, VertexId u, std::size_t k, FanPruning pruning);
+  /// Searches the next fan; false if there is none left. Finds each vertex v in it that u sees, and that can
+  /// be a corner with u of a valid triangle of order at most k in this fan: with FanPruning::NearEnds, only
+  /// as far as the triangle's largest angle is at u. Others may be among them. Complexity: the faces of the
+  /// ground in each gap of the view that is not given up.
+  bool next_fan();
+  /// What the last fan holds, counter-clockwise.
+  [[nodiscard]] std::span<const Partner> partners() const { return partners_; }
+  /// Vertices straight behind one that u sees, as far as a disc through u with at most k seen inside may have
+  /// them inside. Others may be among them.
+  [[nodiscard]] std::span<const Partner> behind() const { return behind_; }
+  /// Whether the fan goes all around.
+  [[nodiscard]] bool closed() const { return closed_; }
 
  private:
   /// A vertex seen, relative to u.
@@ -43,9 +57,11 @@ class FanSearch {
     VertexId vertex;
     double x = 0, y = 0;
     double distance = 0;
-    double angle = 0;
-    Direction inverse;  ///< the position inverted at the unit circle about u
-    double slack = 0;   ///< more than what rounding may do to products of it with unit vectors
+    double turn = 0;   ///< from the fan's first direction
+    double angle = 0;  ///< diamond angle, with NearEnds
+    Direction inverse;
+    double slack = 0;        ///< more than what rounding may do to products of `inverse` with unit vectors
+    std::uint32_t next = 0;  ///< counter-clockwise; after the last comes the first
   };
   /// What ends certainty about the vertices farther round: a direction, for all vertices farther than
   /// `distance` over kReach.
@@ -54,11 +70,11 @@ class FanSearch {
     double angle = 0;
     double distance = 0;
   };
-  /// A gap of the view: `edge` from its right to its left end, entered from u's side; no part of it within
-  /// the angle is nearer than `distance`.
+  /// A gap of the view, between two vertices seen: `edge` is entered from u's side; no part of it within the
+  /// angle is nearer than `distance`.
   struct Gap {
     HalfedgeId edge;
-    Angle angle;
+    std::uint32_t right = 0, left = 0;  ///< of seen_
     double distance = 0;
     double tested = 0;  ///< the distance at which it, or one it comes from, was last tested
     Direction open;     ///< one that few covered; zero: not known
@@ -66,13 +82,13 @@ class FanSearch {
   /// A closed range of directions, counter-clockwise, and the positions in it at some distance or farther, as
   /// the corners of a triangle with u that holds them all after inversion.
   struct Range {
+    double right_turn = 0, left_turn = 0;
     double right = 0, left = 0;   ///< diamond angles
     Direction to_right, to_left;  ///< unit vectors
     Direction right_at, left_at;  ///< the corners
     double horizon = 0;           ///< what lies nearer is known
     double slack = 0;
   };
-
   /// A direction, and what products of inverse positions with it must exceed to cover it.
   struct Probe {
     Direction c;
@@ -82,12 +98,24 @@ class FanSearch {
     }
   };
 
-  void start();
+  void enter_fan(HalfedgeId first);
+  [[nodiscard]] bool starts_fan(HalfedgeId h) const { return ground_->blocks(h) || ground_->tin().on_rim(h); }
   void expand(const Gap& gap);
-  void push(HalfedgeId edge, const Angle& angle, double distance, double tested, Direction open);
+  void push(HalfedgeId edge, Gap gap);
+  std::uint32_t see(VertexId v, double turn);
+  void count(std::uint32_t seen);
+  void open_gaps(HalfedgeId first);
+  [[nodiscard]] Inverted inverted(Point2 p, double turn) const;
+  [[nodiscard]] bool hopeless_at(const Seen& seen);
+  void collect();
+  [[nodiscard]] bool gives_up(Gap& gap);
+  [[nodiscard]] bool out_of_reach(const Gap& gap) const;
+  [[nodiscard]] double turn_of(std::uint32_t from, Point2 p) const;
+  [[nodiscard]] Point2 at(std::uint32_t seen) const { return ground_->point(seen_[seen].vertex); }
+
   void add_stop(const Stop& stop);
-  void see(VertexId v);
   void stop_at(VertexId v, double distance);
+  void note_behind(std::uint32_t seen, VertexId v);
   void give_up(const Gap& gap);
   [[nodiscard]] double distance_to(const Gap& gap) const;
   [[nodiscard]] bool certain(const Range& range, const Seen& seen) const;
@@ -105,6 +133,15 @@ class FanSearch {
   Point2 at_;
   std::size_t k_ = 0;
   FanPruning pruning_ = FanPruning::None;
+  std::vector<HalfedgeId> fans_;  ///< the first halfedge of each that is left
+  bool closed_ = false;
+  bool narrow_ = false;  ///< no two pieces of a disc through u can lie in the fan
+  double scale_ = 1;     ///< the distance of the nearest neighbour in the fan
+  double far_ = 0;       ///< from where on disc_depth.cpp may be too coarse
+  Direction first_;      ///< unit vector of the fan's first direction
+  bool tabled_ = false;  ///< whether depth_ is kept
+  DiscDepth depth_;
+  StampedMap counted_;     ///< vertices in depth_
   std::vector<Gap> gaps_;  ///< a heap by distance
   std::vector<Seen> seen_;
   std::vector<Stop> stops_;
@@ -114,6 +151,7 @@ class FanSearch {
   double nearest_stop_ = 0;
   std::vector<std::uint32_t> active_;  ///< of seen_
   std::vector<Partner> partners_;
+  std::vector<Partner> behind_;
 };
 
 }  // namespace thalweg::detail

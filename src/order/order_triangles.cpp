@@ -1,17 +1,23 @@
 // All valid triangles of order at most k.
 //
-// 1. fan_search.cpp finds, for each vertex u, the vertices that can share such a triangle with u. Under Std
-// ... SeesVtx
-//    a triangle is found from each of its corners: it is taken from the smallest id. Under ConfEdge and
-//    SeesOpp it is sure to be found only from the corner of its largest angle; rounding may tie corners, so
-//    it may come twice.
+// 1. fan_search.cpp finds, for each fan of ground around a vertex u, the vertices that can share such a
+//    triangle with u. Under Std ... SeesVtx a triangle is found from each of its corners: it is taken from
+//    the smallest id. Under ConfEdge and SeesOpp it is sure to be found only from the corner of its largest
+//    angle; rounding may tie corners, so it may come twice.
 // 2. Let v and w, counter-clockwise, be two partners of u with less than half a turn between. Going round
-// from v, those
-//    w come into question to which v looks past all partners between, on the side of u: else one of these
-//    lies in triangle uvw. This leaves few; a partner inside the circle between v and w counts under all
-//    definitions of step 1, for u sees it, and others may be counted as well; only what passes is tested
-//    exactly.
+//    from v, those w come into question to which v looks past all partners between, on the side of u: else
+//    one of these lies in triangle uvw. This leaves few.
+// 3. Under Std ... SeesVtx each vertex that u sees inside the disc of uvw, in this fan and less than half a
+//    turn from v and w, counts, and inversion about u tells all these at once: they lie beyond the line
+//    through v and w. A disc through u with at most k of them inside has none that is no partner, for the
+//    disc that is shrunk towards u until such a vertex lies on its rim holds no more. So where at most k
+//    partners are inside, all that u sees in the disc is known, uvw is valid if 2 says so (a vertex in
+//    triangle uvw, or an end of an edge that crosses it, is or hides one there that u sees), and where no
+//    edge that blocks meets the disc either, its order is known, too: u sees all of it.
+// 4. Under ConfEdge and SeesOpp those between v and w count. With no edge that blocks all count, as in 3.
 #include "base/parallel.hpp"
+#include "order/blocking_cells.hpp"
+#include "order/circumdisc.hpp"
 #include "order/fan_search.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -56,10 +62,20 @@ double distance_square(Point2 a, Point2 b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
+/// A partner of u.
+struct Partner {
+  VertexId vertex;
+  Point2 at;
+  double x = 0, y = 0;  ///< inverted about u
+  double length = 0;    ///< of that, or more
+  double turn = 0;
+};
+
 struct Scratch {
   FanSearch search;
   OrderWorkspace workspace;
-  std::vector<FanSearch::Partner> partners;
+  std::vector<Partner> partners;
+  std::vector<Partner> behind;  ///< one that u sees
 };
 
 class TriangleSearch {
@@ -68,19 +84,34 @@ class TriangleSearch {
       : order_(order),
         tin_(order.ground()),
         ground_(tin_, order.mode()),
+        blocking_(ground_),
         options_(options),
         pruning_(pruning) {}
 
   void at(VertexId u, Scratch& scratch, std::vector<OrderTriangle>& found) const;
 
  private:
-  void from_side(VertexId u, std::size_t first, Scratch& scratch, std::vector<OrderTriangle>& found) const;
+  /// A fan, and two partners in it that come into question; `next` may count past the last, around.
+  struct Pair {
+    VertexId u;
+    std::span<const Partner> partners;
+    std::span<const Partner> behind;
+    bool closed = false;
+    std::size_t first = 0, next = 0;
+    [[nodiscard]] const Partner& v() const { return partners[first]; }
+    [[nodiscard]] const Partner& w() const { return partners[next % partners.size()]; }
+    [[nodiscard]] Triangle corners() const { return {u, v().vertex, w().vertex}; }
+  };
+  void from_side(Pair pair, Scratch& scratch, std::vector<OrderTriangle>& found) const;
   [[nodiscard]] bool largest_angle_at(VertexId u, VertexId v, VertexId w) const;
-  [[nodiscard]] bool too_many(const Triangle& corners, std::span<const FanSearch::Partner> between) const;
+  [[nodiscard]] std::size_t count_inside(const Pair& pair, std::span<const Partner> among) const;
+  [[nodiscard]] std::size_t count_between(const Pair& pair) const;
+  [[nodiscard]] std::optional<std::size_t> order_of(const Pair& pair, OrderWorkspace& workspace) const;
 
   const ConstrainedOrder& order_;
   const Tin& tin_;
   detail::Ground ground_;
+  detail::BlockingCells blocking_;
   OrderTriangleOptions options_;
   FanPruning pruning_;
 };
@@ -94,54 +125,95 @@ bool TriangleSearch::largest_angle_at(VertexId u, VertexId v, VertexId w) const 
   return opposite >= other * (1 - kSlack);
 }
 
-// Partners between v and w lie beyond vw or outside of the circle: u sees them.
-bool TriangleSearch::too_many(const Triangle& corners, std::span<const FanSearch::Partner> between) const {
+// Stops at more than the largest order. The bound of the error is far above that of the few roundings, each
+// of at most 2^-53 of a product of lengths, that the inverses and the products have undergone.
+std::size_t TriangleSearch::count_inside(const Pair& pair, std::span<const Partner> among) const {
+  constexpr double kError = 1e-13;
+  constexpr double kHalfTurn = 3.14159265358979323846;
+  const Partner &v = pair.v(), &w = pair.w();
+  const double across_x = w.y - v.y, across_y = v.x - w.x;
+  const double level = across_x * v.x + across_y * v.y;
+  const double unit = kError * (v.length + w.length);
   std::size_t inside = 0;
-  for (const FanSearch::Partner& partner : between) {
-    if (in_circle_perturbed(tin_.point(corners[0]), tin_.point(corners[1]), tin_.point(corners[2]),
-                            tin_.point(partner.vertex)) &&
-        ++inside > options_.max_order) {
-      return true;
+  for (const Partner& p : among) {
+    const double beyond = across_x * p.x + across_y * p.y - level;
+    const double error = unit * (p.length + v.length);
+    if (beyond < -error) continue;
+    if (!pair.closed && (p.turn <= w.turn - kHalfTurn || p.turn >= v.turn + kHalfTurn)) continue;
+    const bool sure = beyond > error;
+    if (!sure && (p.vertex == v.vertex || p.vertex == w.vertex)) continue;
+    if (!sure && !in_circle_perturbed(tin_.point(pair.u), v.at, w.at, p.at)) continue;
+    if (++inside > options_.max_order) break;
+  }
+  return inside;
+}
+
+// Partners between v and w lie beyond vw or outside of the circle: u sees them.
+std::size_t TriangleSearch::count_between(const Pair& pair) const {
+  std::size_t inside = 0;
+  for (std::size_t i = pair.first + 1; i < pair.next; ++i) {
+    const Point2 p = pair.partners[i % pair.partners.size()].at;
+    if (!in_circle_perturbed(tin_.point(pair.u), pair.v().at, pair.w().at, p)) continue;
+    if (++inside > options_.max_order) break;
+  }
+  return inside;
+}
+
+std::optional<std::size_t> TriangleSearch::order_of(const Pair& pair, OrderWorkspace& workspace) const {
+  const std::size_t most = options_.max_order;
+  const Triangle corners = pair.corners();
+  if (pruning_ != FanPruning::None) {
+    const bool visible = pruning_ == FanPruning::Visible;
+    const std::size_t inside = visible ? count_inside(pair, pair.partners) : count_between(pair);
+    if (inside > most) return std::nullopt;
+    const detail::Circumdisc disc(tin_.point(pair.u), pair.v().at, pair.w().at);
+    if (blocking_.free(disc.box())) {
+      const std::size_t all =
+          (visible ? inside : count_inside(pair, pair.partners)) + count_inside(pair, pair.behind);
+      return all <= most ? std::optional(all) : std::nullopt;
     }
   }
-  return false;
+  const bool half = !pair.closed && pair.partners.back().turn < 3;  // less than half a turn
+  const bool known = pruning_ == FanPruning::Visible && (pair.closed || half);
+  if (!known && !order_.is_valid(corners, workspace)) return std::nullopt;
+  return order_.order_up_to(corners, options_.definition, most, workspace);
 }
 
 void TriangleSearch::at(VertexId u, Scratch& scratch, std::vector<OrderTriangle>& found) const {
-  const auto partners = scratch.search.partners(ground_, u, options_.max_order, pruning_);
-  std::vector<FanSearch::Partner>& round = scratch.partners;
-  round.assign(partners.begin(), partners.end());
-  // Rounded angles that differ by more than their error decide; else the turn, exactly.
-  std::sort(round.begin(), round.end(), [&](const auto& a, const auto& b) {
-    constexpr double kAngleError = 1e-12;
-    if (std::abs(a.angle - b.angle) > kAngleError) return a.angle < b.angle;
-    return orientation(tin_.point(u), tin_.point(a.vertex), tin_.point(b.vertex)) > 0;
-  });
-  const std::size_t count = round.size();
-  for (std::size_t i = 0; i < count; ++i) round.push_back(round[i]);
-  for (std::size_t i = 0; i < count; ++i) from_side(u, i, scratch, found);
+  scratch.search.start(ground_, u, options_.max_order, pruning_);
+  while (scratch.search.next_fan()) {
+    const auto take = [&](std::span<const FanSearch::Partner> from, std::vector<Partner>& to) {
+      to.clear();
+      for (const auto& [vertex, inverse] : from) {
+        const double length = std::abs(inverse.x) + std::abs(inverse.y);
+        to.push_back({vertex, tin_.point(vertex), inverse.x, inverse.y, length, inverse.turn});
+      }
+    };
+    take(scratch.search.partners(), scratch.partners);
+    take(scratch.search.behind(), scratch.behind);
+    for (std::size_t i = 0; i < scratch.partners.size(); ++i) {
+      from_side({u, scratch.partners, scratch.behind, scratch.search.closed(), i, i}, scratch, found);
+    }
+  }
 }
 
-void TriangleSearch::from_side(VertexId u, std::size_t first, Scratch& scratch,
-                               std::vector<OrderTriangle>& found) const {
-  const std::span<const FanSearch::Partner> round = scratch.partners;
-  const VertexId v = round[first].vertex;
+void TriangleSearch::from_side(Pair pair, Scratch& scratch, std::vector<OrderTriangle>& found) const {
+  const VertexId u = pair.u, v = pair.v().vertex;
   const bool from_lowest = pruning_ != FanPruning::NearEnds;
   if (from_lowest && v < u) return;
-  VertexId bound;  // the partner so far that v sees nearest to u
-  for (std::size_t i = first + 1; i < first + round.size() / 2; ++i) {
-    const VertexId w = round[i].vertex;
-    if (orientation(tin_.point(u), tin_.point(v), tin_.point(w)) <= 0) break;
-    if (bound.valid() && orientation(tin_.point(v), tin_.point(bound), tin_.point(w)) <= 0) continue;
-    bound = w;
+  const Point2 at_u = tin_.point(u), at_v = pair.v().at;
+  const std::size_t count = pair.partners.size();
+  std::optional<Point2> bound;  // the partner so far that v sees nearest to u
+  for (pair.next = pair.first + 1; pair.next < (pair.closed ? pair.first : 0) + count; ++pair.next) {
+    const Point2 at_w = pair.w().at;
+    if (orientation(at_u, at_v, at_w) <= 0) break;
+    if (bound && orientation(at_v, *bound, at_w) <= 0) continue;
+    bound = at_w;
+    const VertexId w = pair.w().vertex;
     if (from_lowest ? w < u : !largest_angle_at(u, v, w)) continue;
-    const Triangle corners{u, v, w};
-    if (pruning_ != FanPruning::None && too_many(corners, round.subspan(first + 1, i - first - 1))) continue;
-    if (!order_.is_valid(corners, scratch.workspace)) continue;
-    const auto order =
-        order_.order_up_to(corners, options_.definition, options_.max_order, scratch.workspace);
+    const auto order = order_of(pair, scratch.workspace);
     if (!order) continue;
-    OrderTriangle triangle{corners, static_cast<std::uint32_t>(*order)};
+    OrderTriangle triangle{pair.corners(), static_cast<std::uint32_t>(*order)};
     std::rotate(triangle.corners.begin(), std::min_element(triangle.corners.begin(), triangle.corners.end()),
                 triangle.corners.end());
     found.push_back(triangle);
@@ -172,13 +244,16 @@ std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
   std::vector<std::vector<OrderTriangle>> found(vertices / kBlock + 1);
   for_each_block(vertices, kBlock, progress, {0, 1}, [&](std::size_t begin, std::size_t end) {
     Scratch& scratch = scratches.local();
-    for (std::size_t u = begin; u < end; ++u) search.at(VertexId{u}, scratch, found[begin / kBlock]);
+    std::vector<OrderTriangle>& here = found[begin / kBlock];
+    for (std::size_t u = begin; u < end; ++u) search.at(VertexId{u}, scratch, here);
+    std::sort(here.begin(), here.end());
   });
   std::vector<OrderTriangle> all;
   for (auto& part : found) {
     all.insert(all.end(), part.begin(), part.end());
     part = {};
   }
+  if (pruning != FanPruning::NearEnds) return all;  // each found once, at its smallest id
   tbb::parallel_sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

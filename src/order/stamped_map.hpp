@@ -36,6 +36,8 @@ class StampedMap {
     return entry.stamp == stamp_ ? &entry.value : nullptr;
   }
 
+  [[nodiscard]] bool contains(std::uint32_t key) const { return entries_[slot(key)].stamp == stamp_; }
+
  private:
   struct Entry {
     std::uint32_t key = 0;

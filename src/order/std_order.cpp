@@ -67,17 +67,19 @@ std::optional<StdOrderDemand> DemandSearch::at(const Side& side, Scratch& scratc
   if (side.order < largest_) return std::nullopt;
   const VertexId a = tin_.origin(side.h), b = tin_.target(side.h);
   StdOrderDemand best{a, b, {a, b, tin_.apex(side.h)}, side.order};
-  for (const auto& partner :
-       scratch.search.partners(ground_, a, side.order - 1, detail::FanPruning::Visible)) {
-    const VertexId w = partner.vertex;
-    if (orientation(tin_.point(a), tin_.point(b), tin_.point(w)) <= 0) continue;
-    const Triangle corners{a, b, w};
-    if (!order_.is_valid(corners, scratch.workspace)) continue;
-    const auto order = order_.order_up_to(corners, OrderDefinition::Std, best.order - 1, scratch.workspace);
-    if (!order) continue;
-    best.triangle = corners;
-    best.order = static_cast<std::uint32_t>(*order);
-    if (best.order < largest_ || best.order == 0) return std::nullopt;
+  scratch.search.start(ground_, a, side.order - 1, detail::FanPruning::Visible);
+  while (scratch.search.next_fan()) {
+    for (const auto& partner : scratch.search.partners()) {
+      const VertexId w = partner.vertex;
+      if (orientation(tin_.point(a), tin_.point(b), tin_.point(w)) <= 0) continue;
+      const Triangle corners{a, b, w};
+      if (!order_.is_valid(corners, scratch.workspace)) continue;
+      const auto order = order_.order_up_to(corners, OrderDefinition::Std, best.order - 1, scratch.workspace);
+      if (!order) continue;
+      best.triangle = corners;
+      best.order = static_cast<std::uint32_t>(*order);
+      if (best.order < largest_ || best.order == 0) return std::nullopt;
+    }
   }
   std::uint32_t seen = largest_;
   while (seen < best.order && !largest_.compare_exchange_weak(seen, best.order)) {
