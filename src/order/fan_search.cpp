@@ -2,7 +2,7 @@
 //
 // 1. A side uv of a valid triangle runs free, or is a constraint edge: u sees v, past no vertex. All such v
 //    are met by following the gaps of the view from u through the faces, cut at each vertex (as in
-//    sights.cpp), nearest first. Edges at u that block part the ground around it into fans, each searched
+//    sights.cpp), nearest first or, where 5 holds, as they come. Edges at u that block part the ground around it into fans, each searched
 //    alone: no valid triangle at u has such an edge inside.
 // 2. Let t be a valid triangle at u with order <= k and disc D. Of the vertices x in D that u sees, many must
 // count:
@@ -83,9 +83,8 @@ double normal(double angle) {
   return angle >= 4 ? angle - 4 : angle;
 }
 
-bool farther(double a, double b) {
-  return a > b;
-}
+// For a heap with the nearest gap first.
+constexpr auto by_distance = [](const auto& a, const auto& b) { return a.distance > b.distance; };
 
 // Near the hull only vertices far along a narrow gap tell that it is hopeless, so many count; the limit keeps
 // a vertex that sees thousands from a cost that is quadratic in them.
@@ -129,8 +128,10 @@ bool FanSearch::next_fan() {
   fans_.pop_back();
   enter_fan(first);
   open_gaps(first);
-  const auto by_distance = [](const Gap& a, const Gap& b) { return farther(a.distance, b.distance); };
-  while (!gaps_.empty()) {
+  if (tabled_) {
+    for (std::size_t i = 0; i < gaps_.size(); ++i) expand(Gap(gaps_[i]));
+  }
+  while (!tabled_ && !gaps_.empty()) {
     std::pop_heap(gaps_.begin(), gaps_.end(), by_distance);
     const Gap gap = gaps_.back();
     gaps_.pop_back();
@@ -280,10 +281,9 @@ void FanSearch::give_up(const Gap& gap) {
 void FanSearch::push(HalfedgeId edge, Gap gap) {
   if (ground_->blocks(edge) || ground_->tin().on_rim(edge)) return;
   gap.edge = edge;
-  gap.distance = std::max(gap.distance, distance_to(gap));
+  if (!tabled_) gap.distance = std::max(gap.distance, distance_to(gap));
   gaps_.push_back(gap);
-  std::push_heap(gaps_.begin(), gaps_.end(),
-                 [](const Gap& a, const Gap& b) { return farther(a.distance, b.distance); });
+  if (!tabled_) std::push_heap(gaps_.begin(), gaps_.end(), by_distance);
 }
 
 // Whether no disc of order <= k through u and a vertex of the gap has an end of its edge inside.
@@ -291,20 +291,43 @@ bool FanSearch::out_of_reach(const Gap& gap) const {
   const double from = seen_[gap.right].turn;
   double to = seen_[gap.left].turn;
   if (to < from) to += 2 * kPi;
+  const auto known = [&](std::uint32_t i, double turn) {
+    const Direction at = seen_[i].inverse;
+    const Inverted there{dot(first_, at), first_.x * at.y - first_.y * at.x, turn};
+    return k_ > 0 && depth_.reaches(there, k_ - 1, from, to);
+  };
   const Tin& tin = ground_->tin();
   for (const VertexId v : {tin.origin(gap.edge), tin.target(gap.edge)}) {
-    const bool counts = v == seen_[gap.right].vertex || v == seen_[gap.left].vertex ||
-                        (narrow_ && counted_.contains(v.value()));
-    if (counts && k_ == 0) continue;
-    const Point2 p = ground_->point(v);
-    if (depth_.reaches(inverted(p, turn_of(gap.right, p)), counts ? k_ - 1 : k_, from, to)) return false;
+    if (v == seen_[gap.right].vertex) {
+      if (known(gap.right, from)) return false;
+    } else if (v == seen_[gap.left].vertex) {
+      if (known(gap.left, to)) return false;
+    } else {
+      const bool counts = narrow_ && counted_.contains(v.value());
+      if (counts && k_ == 0) continue;
+      const Point2 p = ground_->point(v);
+      if (depth_.reaches(inverted(p, turn_of(gap.right, p)), counts ? k_ - 1 : k_, from, to)) return false;
+    }
   }
   return true;
 }
 
+// Whether both ends of its edge are nearer than that: then so is its part in the angle.
+bool FanSearch::nearer(const Gap& gap, double distance) const {
+  const auto near = [&](VertexId v) {
+    const Point2 p = ground_->point(v);
+    return (p.x - at_.x) * (p.x - at_.x) + (p.y - at_.y) * (p.y - at_.y) < distance * distance;
+  };
+  return near(ground_->tin().origin(gap.edge)) && near(ground_->tin().target(gap.edge));
+}
+
 bool FanSearch::gives_up(Gap& gap) {
   if (pruning_ == FanPruning::None) return false;
-  if (tabled_ && out_of_reach(gap)) return true;
+  if (tabled_) {
+    if (out_of_reach(gap)) return true;
+    if (nearer(gap, kMuchFarther * gap.tested)) return false;
+    gap.distance = std::max(gap.distance, distance_to(gap));
+  }
   if (gap.distance <= (tabled_ ? kMuchFarther : kFarther) * gap.tested) return false;
   const Seen& right = seen_[gap.right];
   const Seen& left = seen_[gap.left];

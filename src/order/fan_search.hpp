@@ -110,6 +110,7 @@ class FanSearch {
   void collect();
   [[nodiscard]] bool gives_up(Gap& gap);
   [[nodiscard]] bool out_of_reach(const Gap& gap) const;
+  [[nodiscard]] bool nearer(const Gap& gap, double distance) const;
   [[nodiscard]] double turn_of(std::uint32_t from, Point2 p) const;
   [[nodiscard]] Point2 at(std::uint32_t seen) const { return ground_->point(seen_[seen].vertex); }
 
@@ -142,7 +143,7 @@ class FanSearch {
   bool tabled_ = false;  ///< whether depth_ is kept
   DiscDepth depth_;
   StampedMap counted_;     ///< vertices in depth_
-  std::vector<Gap> gaps_;  ///< a heap by distance
+  std::vector<Gap> gaps_;  ///< a heap by distance; with `tabled_` all so far
   std::vector<Seen> seen_;
   std::vector<Stop> stops_;
   static constexpr std::size_t kSectorsAUnit = 16;
