@@ -66,6 +66,8 @@ constexpr double kMuchFarther = 1.5;
 constexpr double kFar = 2;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
+// What the largest angle of a triangle has at least, less what rounding may take off it.
+constexpr double kLeastAngle = kPi / 3 - 1e-6;
 
 double diamond_angle(double x, double y) {
   const double share = x / (std::abs(x) + std::abs(y));
@@ -100,6 +102,10 @@ double dot(Direction a, Direction b) {
 double length(Direction a) {
   return std::sqrt(dot(a, a));
 }
+Direction turned(Direction a, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * a.x - s * a.y, s * a.x + c * a.y};
+}
 Direction scaled(Direction a, double factor) {
   return {a.x * factor, a.y * factor};
 }
@@ -112,7 +118,8 @@ void FanSearch::start(const Ground& ground, VertexId u, std::size_t k, FanPrunin
   at_ = ground.point(u);
   k_ = k;
   pruning_ = pruning;
-  tabled_ = pruning == FanPruning::Visible && k <= DiscDepth::kMostDepth;
+  counting_ = pruning != FanPruning::None && k <= DiscDepth::kMostDepth;
+  tabled_ = counting_ && pruning == FanPruning::Visible;
   fans_.clear();
   const auto around = ground.tin().outgoing(u);
   for (const HalfedgeId h : around) {
@@ -149,6 +156,7 @@ void FanSearch::enter_fan(HalfedgeId first) {
   stops_.clear();
   if (pruning_ == FanPruning::NearEnds) sectors_.fill(kUnbounded);
   nearest_stop_ = kUnbounded;
+  beside_blocks_ = false;
   const Tin& tin = ground_->tin();
   const auto square = [&](VertexId v) {
     const Point2 p = ground_->point(v);
@@ -171,6 +179,7 @@ void FanSearch::enter_fan(HalfedgeId first) {
     const VertexId v = tin.origin(last);
     seen_[before].next = see(v, std::max(seen_[before].turn, turn_of(before, ground_->point(v))));
     if (h.valid() && !starts_fan(h)) continue;
+    beside_blocks_ = ground_->blocks(first) || ground_->blocks(last);
     if (pruning_ == FanPruning::NearEnds && ground_->blocks(last)) stop_at(v, 0);
     break;
   }
@@ -179,15 +188,15 @@ void FanSearch::enter_fan(HalfedgeId first) {
 
 void FanSearch::open_gaps(HalfedgeId first) {
   const Tin& tin = ground_->tin();
-  const double breadth = seen_.back().turn;
-  narrow_ = closed_ || breadth < kPi;
+  breadth_ = closed_ ? 2 * kPi : seen_.back().turn;
+  narrow_ = closed_ || breadth_ < kPi;
   // One edge that blocks alone may be both sides of the fan.
   if (pruning_ == FanPruning::NearEnds && !closed_ && seen_.front().vertex == seen_.back().vertex) {
     seen_.back().slack = kUnbounded;
   }
-  if (tabled_) {
+  if (counting_) {
     counted_.clear();
-    depth_.reset(k_, closed_, breadth);
+    depth_.reset(k_, closed_, breadth_);
     for (std::uint32_t i = 0; i < seen_.size(); ++i) count(i);
   }
   far_ = 0;
@@ -248,15 +257,16 @@ void FanSearch::collect() {
 }
 
 bool FanSearch::hopeless_at(const Seen& seen) {
-  if (tabled_) {
+  if (counting_) {
     const Inverted at = inverted(ground_->point(seen.vertex), seen.turn);
-    if (!depth_.reaches(at, k_, seen.turn, seen.turn)) return true;
-    if (seen.distance < kMuchFarther * far_) return false;
+    const bool reached = depth_.reaches(at, k_, seen.turn, seen.turn);
+    if (tabled_ && !reached) return true;
+    if (reached && seen.distance < kMuchFarther * far_) return false;
   }
   const Direction to{seen.x / seen.distance, seen.y / seen.distance};
   const Direction at{seen.x / seen.distance * (scale_ / seen.distance) * kWider,
                      seen.y / seen.distance * (scale_ / seen.distance) * kWider};
-  Direction open;
+  std::array<Direction, 2> open;
   return hopeless({seen.turn, seen.turn, seen.angle, seen.angle, to, to, at, at, kUnbounded}, open);
 }
 
@@ -328,6 +338,8 @@ bool FanSearch::gives_up(Gap& gap) {
     if (nearer(gap, kMuchFarther * gap.tested)) return false;
     gap.distance = std::max(gap.distance, distance_to(gap));
   }
+  // Where few are seen in some disc, few of them count.
+  if (counting_ && !tabled_ && nearer(gap, kMuchFarther * far_) && !out_of_reach(gap)) return false;
   if (gap.distance <= (tabled_ ? kMuchFarther : kFarther) * gap.tested) return false;
   const Seen& right = seen_[gap.right];
   const Seen& left = seen_[gap.left];
@@ -354,7 +366,7 @@ void FanSearch::expand(const Gap& from) {
     const double low = seen_[gap.right].turn, high = seen_[gap.left].turn;
     const double turn = std::max(low, turn_of(gap.right, p));
     const std::uint32_t middle = see(apex, low < high ? std::min(high, turn) : turn);
-    if (tabled_) count(middle);
+    if (counting_) count(middle);
     seen_[middle].next = gap.left;
     seen_[gap.right].next = middle;
     Gap right = gap, left = gap;
@@ -412,28 +424,31 @@ bool FanSearch::certain(const Range& range, const Seen& seen) const {
   if (pruning_ == FanPruning::Visible) {
     return narrow_ || (seen.turn > range.left_turn - kPi && seen.turn < range.right_turn + kPi);
   }
-  const double reach = kReach * seen.distance;
-  if (reach > range.horizon) return false;
-  if (reach < nearest_stop_) return true;
-  const double breadth = turn_between(range.right, range.left);
   const double from_right = turn_between(range.right, seen.angle);
-  double start = range.right;
-  double turn = breadth;
-  if (from_right > breadth) {
-    const double to_left = turn_between(seen.angle, range.left);
-    if (from_right < 2) {
-      turn = from_right;
-    } else if (to_left < 2) {
-      start = seen.angle;
-      turn = to_left;
-    } else {
-      return false;
-    }
+  const double to_left = turn_between(seen.angle, range.left);
+  const double breadth = turn_between(range.right, range.left);
+  if (from_right <= breadth) return kReach * seen.distance <= range.horizon && clear(range.right, breadth, seen);
+  if (from_right < 2) {
+    const double sector = range.role == Role::Right ? turn_between(range.right, range.sector_end) : 0;
+    if (range.role == Role::Right && from_right <= sector) return true;
+    return kReach * seen.distance <= range.horizon && clear(normal(range.right + sector), from_right - sector, seen);
   }
-  const double from = normal(start - kAngleSlack);
-  const double breadth_to_stop = turn + 2 * kAngleSlack;
+  if (to_left < 2) {
+    const double sector = range.role == Role::Left ? turn_between(range.sector_end, range.left) : 0;
+    if (range.role == Role::Left && to_left <= sector) return true;
+    return kReach * seen.distance <= range.horizon && clear(seen.angle, to_left - sector, seen);
+  }
+  return false;
+}
+
+// Whether no stop that may hide a vertex seen lies from one direction on as far as `turn`.
+bool FanSearch::clear(double from, double turn, const Seen& seen) const {
+  const double reach = kReach * seen.distance;
+  if (reach < nearest_stop_) return true;
+  from = normal(from - kAngleSlack);
+  const double breadth = turn + 2 * kAngleSlack;
   const auto first = static_cast<std::size_t>(from * kSectorsAUnit) % kSectors;
-  const auto last = static_cast<std::size_t>(normal(from + breadth_to_stop) * kSectorsAUnit) % kSectors;
+  const auto last = static_cast<std::size_t>(normal(from + breadth) * kSectorsAUnit) % kSectors;
   const bool unclear = sectors_[first] <= reach || sectors_[last] <= reach;
   if (first != last) {
     for (std::size_t i = (first + 1) % kSectors; i != last; i = (i + 1) % kSectors) {
@@ -443,7 +458,7 @@ bool FanSearch::certain(const Range& range, const Seen& seen) const {
   if (!unclear) return true;
   return std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) {
     return stop.distance <= reach && (!stop.vertex.valid() || stop.vertex != seen.vertex) &&
-           turn_between(from, stop.angle) <= breadth_to_stop;
+           turn_between(from, stop.angle) <= breadth;
   });
 }
 
@@ -501,17 +516,34 @@ bool FanSearch::activate(const Range& range, const std::array<Probe, 4>& chief, 
   return true;
 }
 
-bool FanSearch::hopeless(Range range, Direction& open) {
+bool FanSearch::hopeless(const Range& range, std::array<Direction, 2>& open) {
   if (pruning_ == FanPruning::None || seen_.size() <= k_) return false;
+  if (pruning_ == FanPruning::Visible) return hopeless_as(Role::Any, range, open[0]);
+  return hopeless_as(Role::Right, range, open[0]) && hopeless_as(Role::Left, range, open[1]);
+}
+
+bool FanSearch::hopeless_as(Role role, Range range, Direction& open) {
   range.slack = kCoverSlack * std::max(length(range.right_at), length(range.left_at));
+  range.role = role;
+  Direction from{range.to_right.y, -range.to_right.x};
+  Direction to{-range.to_left.y, range.to_left.x};
+  if (role == Role::Right) {
+    if (beside_blocks_ && breadth_ - range.right_turn < kLeastAngle) return true;
+    const Direction end = turned(range.to_right, kLeastAngle);
+    range.sector_end = diamond_angle(end.x, end.y);
+    from = turned(range.to_right, kLeastAngle - kPi / 2);
+  } else if (role == Role::Left) {
+    if (beside_blocks_ && range.left_turn < kLeastAngle) return true;
+    const Direction end = turned(range.to_left, -kLeastAngle);
+    range.sector_end = diamond_angle(end.x, end.y);
+    to = turned(range.to_left, kPi / 2 - kLeastAngle);
+  }
   if (open != Direction{} && (dot(open, range.to_right) > 0 || dot(open, range.to_left) > 0) &&
       !deep_at(range, open)) {
     return false;
   }
-  const Probe first = probe(range, {range.to_right.y, -range.to_right.x});
-  const Probe right = probe(range, range.to_right);
-  const Probe left = probe(range, range.to_left);
-  const Probe last = probe(range, {-range.to_left.y, range.to_left.x});
+  const Probe first = probe(range, from), last = probe(range, to);
+  const Probe right = probe(range, range.to_right), left = probe(range, range.to_left);
   if (!activate(range, {first, right, left, last}, open)) return false;
   return deep_between(range, first, right, kHalvings, open) &&
          (range.right_turn == range.left_turn || deep_between(range, right, left, kHalvings, open)) &&

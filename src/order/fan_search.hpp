@@ -77,8 +77,11 @@ class FanSearch {
     std::uint32_t right = 0, left = 0;  ///< of seen_
     double distance = 0;
     double tested = 0;  ///< the distance at which it, or one it comes from, was last tested
-    Direction open;     ///< one that few covered; zero: not known
+    std::array<Direction, 2> open;  ///< for each role one that few covered; zero: not known
   };
+  /// What is known of the triangle's other corner w, as seen from u: nothing, or that it is 60 degrees or more
+  /// counter-clockwise, or clockwise, of the place looked at.
+  enum class Role : std::uint8_t { Any, Right, Left };
   /// A closed range of directions, counter-clockwise, and the positions in it at some distance or farther, as
   /// the corners of a triangle with u that holds them all after inversion.
   struct Range {
@@ -88,6 +91,8 @@ class FanSearch {
     Direction right_at, left_at;  ///< the corners
     double horizon = 0;           ///< what lies nearer is known
     double slack = 0;
+    Role role = Role::Any;
+    double sector_end = 0;  ///< of any but Any: a diamond angle 60 degrees from the range's far end
   };
   /// A direction, and what products of inverse positions with it must exceed to cover it.
   struct Probe {
@@ -125,9 +130,11 @@ class FanSearch {
   bool activate(const Range& range, const std::array<Probe, 4>& chief, Direction& open);
   [[nodiscard]] bool deep_between(const Range& range, const Probe& from, const Probe& to, int halvings,
                                   Direction& open) const;
-  /// Whether no triangle of order <= k has u and a position in the range as corners. Tells a direction that
-  /// few cover where it says no; `open` may bring a guess.
-  [[nodiscard]] bool hopeless(Range range, Direction& open);
+  /// Whether no triangle of order <= k has u and a position in the range as corners; with NearEnds, u as that
+  /// of the largest angle. Tells directions that few cover where it says no; `open` may bring guesses.
+  [[nodiscard]] bool hopeless(const Range& range, std::array<Direction, 2>& open);
+  [[nodiscard]] bool hopeless_as(Role role, Range range, Direction& open);
+  [[nodiscard]] bool clear(double from, double turn, const Seen& seen) const;
 
   const Ground* ground_ = nullptr;
   VertexId u_;
@@ -137,10 +144,13 @@ class FanSearch {
   std::vector<HalfedgeId> fans_;  ///< the first halfedge of each that is left
   bool closed_ = false;
   bool narrow_ = false;  ///< no two pieces of a disc through u can lie in the fan
+  double breadth_ = 0;   ///< radians
   double scale_ = 1;     ///< the distance of the nearest neighbour in the fan
   double far_ = 0;       ///< from where on disc_depth.cpp may be too coarse
   Direction first_;      ///< unit vector of the fan's first direction
-  bool tabled_ = false;  ///< whether depth_ is kept
+  bool beside_blocks_ = false;  ///< a side of the fan blocks
+  bool counting_ = false;  ///< whether depth_ is kept
+  bool tabled_ = false;  ///< whether it decides
   DiscDepth depth_;
   StampedMap counted_;     ///< vertices in depth_
   std::vector<Gap> gaps_;  ///< a heap by distance; with `tabled_` all so far
