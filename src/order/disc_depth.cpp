@@ -93,9 +93,9 @@ void DiscDepth::insert(const Inverted& point) {
     for (std::size_t row = 0; row <= depth_; ++row) {
       float* nearest = nearest_.data() + row * kAll + first;
       for (std::size_t i = 0; i < count; ++i) {
-        const float old = nearest[i];
-        nearest[i] = old < product[i] ? product[i] : old;
-        product[i] = old < product[i] ? old : product[i];
+        const float old = nearest[i], fresh = product[i];
+        nearest[i] = std::max(old, fresh);
+        product[i] = std::min(old, fresh);
       }
     }
   });

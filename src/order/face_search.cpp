@@ -12,7 +12,7 @@
 #include "order/face_search.hpp"
 
 #include <algorithm>
-#include <map>
+#include <bit>
 
 namespace thalweg::detail {
 
@@ -21,6 +21,58 @@ namespace {
 using Front = std::vector<std::uint32_t>;  // directed edges, ascending
 
 using Arc = FrontGraph::Arc;
+
+/// Fronts that differ, numbered as they come: end to end, and found again by open addressing.
+class FrontList {
+ public:
+  /// The front's number.
+  std::uint32_t number(std::span<const std::uint32_t> front);
+  [[nodiscard]] std::optional<std::uint32_t> find_empty() const { return empty_; }
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(first_.size() - 1); }
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t i) const {
+    return std::span(edges_).subspan(first_[i], first_[i + 1] - first_[i]);
+  }
+  /// Edges of all, and one for each.
+  [[nodiscard]] std::size_t work() const { return edges_.size() + size(); }
+
+ private:
+  static constexpr std::uint32_t kFree = 0xffffffffU;
+  [[nodiscard]] std::size_t slot(std::span<const std::uint32_t> front) const;
+  void grow();
+
+  std::vector<std::uint32_t> edges_, slots_ = std::vector<std::uint32_t>(16, kFree);
+  std::vector<std::size_t> first_ = {0};
+  std::optional<std::uint32_t> empty_;
+};
+
+// Where the front is, or would be. Multiplicative hashing (Knuth, The Art of Computer Programming 3, 6.4).
+std::size_t FrontList::slot(std::span<const std::uint32_t> front) const {
+  std::uint64_t hash = front.size();
+  for (const std::uint32_t edge : front) {
+    hash = std::rotl((hash ^ edge) * 0x9e3779b97f4a7c15ULL, 29);
+  }
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15ULL >> 32) & mask;
+  while (slots_[i] != kFree && !std::ranges::equal((*this)[slots_[i]], front)) i = (i + 1) & mask;
+  return i;
+}
+
+void FrontList::grow() {
+  slots_.assign(2 * slots_.size(), kFree);
+  for (std::uint32_t i = 0; i < size(); ++i) slots_[slot((*this)[i])] = i;
+}
+
+std::uint32_t FrontList::number(std::span<const std::uint32_t> front) {
+  std::size_t at = slot(front);
+  if (slots_[at] != kFree) return slots_[at];
+  const std::uint32_t fresh = size();
+  if (front.empty()) empty_ = fresh;
+  edges_.insert(edges_.end(), front.begin(), front.end());
+  first_.push_back(edges_.size());
+  slots_[at] = fresh;
+  if (2 * first_.size() > slots_.size()) grow();
+  return fresh;
+}
 
 class FaceSearch {
  public:
@@ -37,7 +89,8 @@ class FaceSearch {
 
  private:
   [[nodiscard]] Front first_front() const;
-  [[nodiscard]] std::optional<Front> cover(const Front& front, std::uint32_t triangle) const;
+  /// Whether the triangle fits; `next` is what it leaves of the front, if so.
+  bool cover(std::span<const std::uint32_t> front, std::uint32_t triangle, Front& next) const;
   [[nodiscard]] std::uint32_t order(std::uint32_t i) const {
     return candidates_.triangles[triangles_[i]].order;
   }
@@ -56,8 +109,8 @@ Front FaceSearch::first_front() const {
   return front;
 }
 
-std::optional<Front> FaceSearch::cover(const Front& front, std::uint32_t triangle) const {
-  Front next = front;
+bool FaceSearch::cover(std::span<const std::uint32_t> front, std::uint32_t triangle, Front& next) const {
+  next.assign(front.begin(), front.end());
   for (const std::uint32_t side : candidates_.sides[triangles_[triangle]]) {
     const auto at = std::lower_bound(next.begin(), next.end(), side);
     if (at != next.end() && *at == side) {
@@ -65,47 +118,34 @@ std::optional<Front> FaceSearch::cover(const Front& front, std::uint32_t triangl
       continue;
     }
     if (!candidates_.edges[side / 2].free || std::binary_search(front.begin(), front.end(), side ^ 1U)) {
-      return std::nullopt;
+      return false;
     }
     for (const std::uint32_t crossed : candidates_.crossings.row(side / 2)) {
       const auto there = std::lower_bound(front.begin(), front.end(), 2 * crossed);
-      if (there != front.end() && *there / 2 == crossed) return std::nullopt;
+      if (there != front.end() && *there / 2 == crossed) return false;
     }
     next.insert(std::lower_bound(next.begin(), next.end(), side ^ 1U), side ^ 1U);
   }
-  return next;
+  return true;
 }
 
 std::optional<FrontGraph> FaceSearch::find_fronts(const FrontLimits& limits) const {
-  std::map<Front, std::uint32_t> number;
-  std::vector<const Front*> fronts;
+  FrontList fronts;
+  Front next;
   std::vector<Arc> arcs;
-  std::size_t work = 0;
-  const auto number_of = [&](Front&& front) {
-    const auto [at, fresh] = number.try_emplace(std::move(front), static_cast<std::uint32_t>(fronts.size()));
-    if (fresh) {
-      fronts.push_back(&at->first);
-      work += at->first.size() + 1;
-    }
-    return at->second;
-  };
-  number_of(first_front());
+  fronts.number(first_front());
   // Each front is reached by as many triangles on every path, so those that are found first have fewer.
   for (std::uint32_t f = 0; f < fronts.size(); ++f) {
-    if (work > limits.work_limit) return std::nullopt;
-    if (fronts[f]->empty()) continue;
-    const std::uint32_t lowest = fronts[f]->front();
+    if (fronts.work() > limits.work_limit) return std::nullopt;
+    if (fronts[f].empty()) continue;
+    const std::uint32_t lowest = fronts[f].front();
     auto at = std::lower_bound(on_side_.begin(), on_side_.end(), std::pair(lowest, std::uint32_t{0}));
     for (; at != on_side_.end() && at->first == lowest; ++at) {
-      if (order(at->second) > limits.max_order) continue;
-      if (auto next = cover(*fronts[f], at->second)) {
-        arcs.push_back({f, number_of(std::move(*next)), at->second});
-      }
+      if (order(at->second) > limits.max_order || !cover(fronts[f], at->second, next)) continue;
+      arcs.push_back({f, fronts.number(next), at->second});
     }
   }
-  FrontGraph graph{static_cast<std::uint32_t>(fronts.size()), std::nullopt, std::move(arcs)};
-  if (const auto last = number.find(Front()); last != number.end()) graph.empty_front = last->second;
-  return graph;
+  return FrontGraph{fronts.size(), fronts.find_empty(), std::move(arcs)};
 }
 
 FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {

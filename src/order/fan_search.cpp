@@ -2,8 +2,8 @@
 //
 // 1. A side uv of a valid triangle runs free, or is a constraint edge: u sees v, past no vertex. All such v
 //    are met by following the gaps of the view from u through the faces, cut at each vertex (as in
-//    sights.cpp), nearest first or, where 5 holds, as they come. Edges at u that block part the ground around it into fans, each searched
-//    alone: no valid triangle at u has such an edge inside.
+//    sights.cpp), nearest first or, where 5 holds, as they come. Edges at u that block part the ground around
+//    it into fans, each searched alone: no valid triangle at u has such an edge inside.
 // 2. Let t be a valid triangle at u with order <= k and disc D. Of the vertices x in D that u sees, many must
 // count:
 //    a. Visible. Say no constraint edge at u lies between the directions of x and of t. Then x counts under
@@ -427,11 +427,13 @@ bool FanSearch::certain(const Range& range, const Seen& seen) const {
   const double from_right = turn_between(range.right, seen.angle);
   const double to_left = turn_between(seen.angle, range.left);
   const double breadth = turn_between(range.right, range.left);
-  if (from_right <= breadth) return kReach * seen.distance <= range.horizon && clear(range.right, breadth, seen);
+  if (from_right <= breadth)
+    return kReach * seen.distance <= range.horizon && clear(range.right, breadth, seen);
   if (from_right < 2) {
     const double sector = range.role == Role::Right ? turn_between(range.right, range.sector_end) : 0;
     if (range.role == Role::Right && from_right <= sector) return true;
-    return kReach * seen.distance <= range.horizon && clear(normal(range.right + sector), from_right - sector, seen);
+    return kReach * seen.distance <= range.horizon &&
+           clear(normal(range.right + sector), from_right - sector, seen);
   }
   if (to_left < 2) {
     const double sector = range.role == Role::Left ? turn_between(range.sector_end, range.left) : 0;

@@ -76,11 +76,11 @@ class FanSearch {
     HalfedgeId edge;
     std::uint32_t right = 0, left = 0;  ///< of seen_
     double distance = 0;
-    double tested = 0;  ///< the distance at which it, or one it comes from, was last tested
+    double tested = 0;              ///< the distance at which it, or one it comes from, was last tested
     std::array<Direction, 2> open;  ///< for each role one that few covered; zero: not known
   };
-  /// What is known of the triangle's other corner w, as seen from u: nothing, or that it is 60 degrees or more
-  /// counter-clockwise, or clockwise, of the place looked at.
+  /// What is known of the triangle's other corner w, as seen from u: nothing, or that it is 60 degrees or
+  /// more counter-clockwise, or clockwise, of the place looked at.
   enum class Role : std::uint8_t { Any, Right, Left };
   /// A closed range of directions, counter-clockwise, and the positions in it at some distance or farther, as
   /// the corners of a triangle with u that holds them all after inversion.
@@ -143,14 +143,14 @@ class FanSearch {
   FanPruning pruning_ = FanPruning::None;
   std::vector<HalfedgeId> fans_;  ///< the first halfedge of each that is left
   bool closed_ = false;
-  bool narrow_ = false;  ///< no two pieces of a disc through u can lie in the fan
-  double breadth_ = 0;   ///< radians
-  double scale_ = 1;     ///< the distance of the nearest neighbour in the fan
-  double far_ = 0;       ///< from where on disc_depth.cpp may be too coarse
-  Direction first_;      ///< unit vector of the fan's first direction
+  bool narrow_ = false;         ///< no two pieces of a disc through u can lie in the fan
+  double breadth_ = 0;          ///< radians
+  double scale_ = 1;            ///< the distance of the nearest neighbour in the fan
+  double far_ = 0;              ///< from where on disc_depth.cpp may be too coarse
+  Direction first_;             ///< unit vector of the fan's first direction
   bool beside_blocks_ = false;  ///< a side of the fan blocks
-  bool counting_ = false;  ///< whether depth_ is kept
-  bool tabled_ = false;  ///< whether it decides
+  bool counting_ = false;       ///< whether depth_ is kept
+  bool tabled_ = false;         ///< whether it decides
   DiscDepth depth_;
   StampedMap counted_;     ///< vertices in depth_
   std::vector<Gap> gaps_;  ///< a heap by distance; with `tabled_` all so far
