@@ -74,8 +74,7 @@ struct ReportFirstOrder {
   std::size_t width = 0;
 };
 
-/// The structure of a run that chose triangulations of faces: above order 1, and where quadrilaterals
-/// overlap.
+/// Of a run that chose triangulations of faces: above order 1, and where quadrilaterals overlap.
 struct ReportHigherOrder {
   std::string definition;
   unsigned order = 0;
