@@ -45,10 +45,11 @@ std::string list_subdatasets(GDALDataset& dataset) {
 
 }  // namespace
 
-std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const Progress& progress) {
+std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const ReadOptions& options,
+                                          const Progress& progress) {
   if (is_las(spec)) return open_las(spec);
   if (is_mesh(spec)) return open_mesh(spec, progress);
-  if (is_text(spec)) return open_text(spec);
+  if (is_text(spec)) return open_text(spec, options);
   GDALDatasetUniquePtr dataset = open_dataset(spec.path);
   if (spec.layer.empty() && is_tin(*dataset)) {
     return open_layer_points({spec.path, "vertices"}, std::move(dataset));

@@ -6,7 +6,9 @@
 //    taken to be in that first one.
 // 3. Each source is read through its transform into the survey, points first.
 // 4. Options that no source could use are errors; so are an empty survey and degrees out of range.
+// 5. Heights are brought from the ellipsoid to a geoid or back, where that is asked for.
 #include "io/gdal_session.hpp"
+#include "io/geoid_heights.hpp"
 #include "io/memory_source.hpp"
 #include "io/source_reader.hpp"
 #include "io/spatial_reference.hpp"
@@ -43,6 +45,13 @@ void check_options(const ReadOptions& options) {
     throw Error(ErrorCode::Usage,
                 "a CRS can be transformed to or assigned, not both: give --t-crs or --a-crs");
   }
+  if (options.coords) {
+    for (const std::string& crs : {options.source_crs, options.assigned_crs}) {
+      if (crs.empty() || describe_crs(crs).geographic) continue;
+      throw Error(ErrorCode::Usage, "--coords gives longitudes and latitudes, and " + crs +
+                                        " is no geographic CRS; transform to it with --t-crs");
+    }
+  }
   if (!options.bbox) return;
   const Box2& box = *options.bbox;
   const bool finite =
@@ -60,7 +69,7 @@ class SurveyReading {
   void open(std::span<const SourceSpec> points, std::span<const LineSource> lines,
             const MemorySource& memory) {
     if (!memory.xy.empty() || !memory.z.empty()) readers_.push_back(open_memory_points(memory));
-    for (const SourceSpec& spec : points) readers_.push_back(open_points(spec, run_.progress));
+    for (const SourceSpec& spec : points) readers_.push_back(open_points(spec, run_.options, run_.progress));
     point_sources_ = readers_.size();
     if (!memory.lines.empty()) readers_.push_back(open_memory_lines(memory));
     for (const LineSource& source : lines) readers_.push_back(thalweg::open_lines(source));
@@ -122,9 +131,12 @@ class SurveyReading {
            "the field with heights of lines,");
     if (!run_.options.classes.empty() || run_.options.returns != LasReturns::All)
       settle(run_.las_filter, "(--classes, --returns)", ErrorCode::Usage, "the filter of LAS points");
+    if (run_.options.coords)
+      settle(run_.coords, "--coords", ErrorCode::Usage, "the form of positions in text,");
     settle(run_.kind_field, run_.options.kind_field, ErrorCode::Usage, "the field with kinds of lines,");
     check_not_empty();
     check_degrees();
+    if (!run_.options.geoid.empty()) apply_geoid(survey_, run_);
     if (run_.has_outside) run_.result.nodata = NodataRegion(std::move(run_.grids));
     run_.progress.advance(1);
     return std::move(run_.result);

@@ -17,9 +17,14 @@
 
 namespace thalweg {
 
-RowParser::RowParser(const TextFormat& format, std::string name, HeightRule heights)
-    : name_(std::move(name)), separator_(format.separator), heights_(heights), names_(format.names) {
-  columns_ = {{format.x, 0}, {format.y, 1}};
+RowParser::RowParser(const TextFormat& format, std::string name, const ReadOptions& options)
+    : name_(std::move(name)),
+      separator_(format.separator),
+      heights_(options.heights),
+      names_(format.names),
+      form_(options.coords.value_or(PositionForm::Dms)),
+      position_(format.position) {
+  if (position_.empty()) columns_ = {{format.x, 0}, {format.y, 1}};
   if (format.z) columns_.push_back({*format.z, 2});
   std::sort(columns_.begin(), columns_.end(),
             [](const Column& a, const Column& b) { return a.index < b.index; });
@@ -71,6 +76,7 @@ RowParser::Parsed RowParser::parse_field(const char* p, const char* end) const {
 }
 
 std::optional<RowParser::Coordinates> RowParser::parse(const char* begin, const char* end) const {
+  if (!position_.empty()) return std::nullopt;
   Coordinates coordinates{};
   const char* p = skip_blanks(begin, end);
   std::size_t index = 0;
@@ -87,23 +93,41 @@ std::optional<RowParser::Coordinates> RowParser::parse(const char* begin, const 
   return coordinates;
 }
 
+std::string_view RowParser::field_at(const std::vector<std::string_view>& fields, std::size_t column,
+                                     const std::string& row) const {
+  if (column < fields.size()) return fields[column];
+  throw Error(ErrorCode::BadFormat, row + " ends before column " + std::to_string(column + 1) + " (" +
+                                        names_[column] + "); it has " + std::to_string(fields.size()) +
+                                        (fields.size() == 1 ? " column" : " columns") +
+                                        "; complete it, or put # before it");
+}
+
+Point2 RowParser::position_in(const std::vector<std::string_view>& fields, const std::string& row) const {
+  std::vector<std::string_view> parts;
+  for (const std::size_t column : position_) parts.push_back(field_at(fields, column, row));
+  try {
+    return parse_position(parts, form_);
+  } catch (const Error& error) {
+    throw Error(error.code(), row + ": " + error.what() + "; correct the row, or put # before it");
+  }
+}
+
 RowParser::Coordinates RowParser::parse_or_explain(std::string_view row, std::size_t number) const {
   const std::vector<std::string_view> fields = split_row(row, separator_);
   const std::string where = name_ + " row " + std::to_string(number);
   Coordinates coordinates{};
   for (const Column& column : columns_) {
-    const bool missing = column.index >= fields.size();
-    const std::string_view field = missing ? std::string_view() : fields[column.index];
-    if (field.empty() && column.axis == 2 && heights_ == HeightRule::Optional) continue;
-    if (missing) {
-      throw Error(ErrorCode::BadFormat,
-                  where + " ends before column " + std::to_string(column.index + 1) + " (" +
-                      names_[column.index] + "); it has " + std::to_string(fields.size()) +
-                      (fields.size() == 1 ? " column" : " columns") + "; complete it, or put # before it");
-    }
+    const bool optional = column.axis == 2 && heights_ == HeightRule::Optional;
+    if (optional && (column.index >= fields.size() || fields[column.index].empty())) continue;
+    const std::string_view field = field_at(fields, column.index, where);
     const std::optional<double> value = to_number(field);
     if (!value || !is_usable(*value)) throw explain(field, column, where);
     coordinates[column.axis] = *value;
+  }
+  if (!position_.empty()) {
+    const Point2 position = position_in(fields, where);
+    coordinates[0] = position.x;
+    coordinates[1] = position.y;
   }
   return coordinates;
 }

@@ -20,11 +20,12 @@ class RowParser {
  public:
   using Coordinates = std::array<double, 3>;
 
-  RowParser(const TextFormat& format, std::string name, HeightRule heights);
+  RowParser(const TextFormat& format, std::string name, const ReadOptions& options);
 
-  /// Parses the row [begin, end) without its line feed; none if something is wrong with it.
+  /// Parses the row [begin, end) without its line feed; none if something is wrong with it, or if its
+  /// position is text.
   std::optional<Coordinates> parse(const char* begin, const char* end) const;
-  /// What `parse` could not: a row whose height is missing, where heights are optional.
+  /// What `parse` could not: a position in text; a row whose height is missing, where heights are optional.
   /// Throws: the error that names the row, counted from 1, the column, what stands there, and the remedy.
   Coordinates parse_or_explain(std::string_view row, std::size_t number) const;
 
@@ -40,13 +41,18 @@ class RowParser {
   const char* next_field(const char* p, const char* end) const;
   Parsed parse_field(const char* p, const char* end) const;
   const char* skip_blanks(const char* p, const char* end) const;
+  [[nodiscard]] std::string_view field_at(const std::vector<std::string_view>& fields, std::size_t column,
+                                          const std::string& row) const;
+  [[nodiscard]] Point2 position_in(const std::vector<std::string_view>& fields, const std::string& row) const;
   [[nodiscard]] Error explain(std::string_view field, const Column& column, const std::string& row) const;
 
   std::string name_;
   char separator_;
   HeightRule heights_;
   std::vector<std::string> names_;
-  std::vector<Column> columns_;  // by index
+  std::vector<Column> columns_;  // of numbers, by index
+  PositionForm form_ = PositionForm::Dms;
+  std::vector<std::size_t> position_;  // columns of a position in text; empty: none
 };
 
 }  // namespace thalweg

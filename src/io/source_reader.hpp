@@ -38,6 +38,7 @@ struct ReadContext {
   OptionUse line_z_field;
   OptionUse kind_field;
   OptionUse las_filter;
+  OptionUse coords;
   std::vector<std::shared_ptr<const NodataRegion::Grid>> grids;  ///< of all rasters
   bool has_outside = false;                                      ///< one of them has ground that is outside
   Box2 extent;  ///< with a box: of all points, in the plane of the survey
@@ -84,7 +85,8 @@ class SourceReader {
 };
 
 /// Opens a source of points, whatever it is. Throws: as read_survey.
-std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const Progress& progress);
+std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const ReadOptions& options,
+                                          const Progress& progress);
 /// Opens a layer of lines or polygons. Throws: as read_survey.
 std::unique_ptr<SourceReader> open_lines(const LineSource& source);
 

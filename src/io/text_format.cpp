@@ -9,6 +9,7 @@
 // 3. Columns by name. If x and y are not both named, the first three columns are x, y, z, unless a name that
 // is
 //    known stands in another place than it says.
+// 4. Positions in text (UTM, MGRS) have columns of their own names; z is then named, or follows them.
 #include "io/text_format.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -33,6 +34,9 @@ constexpr auto kXNames =
 constexpr auto kYNames = std::to_array<std::string_view>({"y", "lat", "latitude", "northing", "north"});
 constexpr auto kLongitudes = std::to_array<std::string_view>({"lon", "long", "lng", "longitude"});
 constexpr auto kLatitudes = std::to_array<std::string_view>({"lat", "latitude"});
+constexpr auto kZoneNames = std::to_array<std::string_view>({"zone", "utm_zone", "utmzone"});
+constexpr auto kUtmNames = std::to_array<std::string_view>({"utm", "coords", "position"});
+constexpr auto kMgrsNames = std::to_array<std::string_view>({"mgrs", "usng", "coords", "position"});
 constexpr auto kZNames =
     std::to_array<std::string_view>({"z", "elev", "elevation", "height", "altitude", "alt"});
 
@@ -60,10 +64,11 @@ std::string lower(std::string_view text) {
 }
 
 bool stands_outside_quotes(std::string_view row, char separator) {
-  bool quoted = false;
+  bool quoted = false, field_begins = true;
   for (const char c : row) {
-    if (c == '"') quoted = !quoted;
+    if (c == '"' && (quoted || field_begins)) quoted = !quoted;
     if (c == separator && !quoted) return true;
+    field_begins = c == ',' || (field_begins && is_blank(c));
   }
   return false;
 }
@@ -138,10 +143,13 @@ FirstRow find_first_row(std::string_view rows, const std::string& name) {
 }
 
 /// Sets names and header_rows. Returns true if the names stand in the file.
-bool find_names(const FirstRow& first, TextFormat& format) {
+bool find_names(const FirstRow& first, bool text_positions, TextFormat& format) {
   const std::vector<std::string_view> fields = split_row(first.row, format.separator);
   format.header_rows = first.rows_before;
-  const auto is_number = [](std::string_view field) { return to_number(field).has_value(); };
+  const auto is_number = [text_positions](std::string_view field) {
+    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    return text_positions ? std::ranges::any_of(field, is_digit) : to_number(field).has_value();
+  };
   format.names = to_names(fields);
   if (std::none_of(fields.begin(), fields.end(), is_number) || names_x_and_y(format.names)) {
     ++format.header_rows;
@@ -173,17 +181,13 @@ void take_first_columns(TextFormat& format, bool named, const std::string& name)
     format.notes.push_back(name + ": the first columns (" + list(format.names) + ") are taken as x, y, z");
 }
 
-void find_columns(TextFormat& format, bool named, const std::string& name, const std::string& z_field) {
+void find_columns(TextFormat& format, bool named, const std::string& name) {
   const std::optional<std::size_t> x = find_name(format.names, kXNames);
   const std::optional<std::size_t> y = find_name(format.names, kYNames);
   if (format.names.size() < 2) {
     throw Error(ErrorCode::BadFormat,
                 name + " row " + std::to_string(format.header_rows + (named ? 0 : 1)) +
                     " has one column; points need x, y and z, separated by , ; tab or blanks");
-  }
-  if (!z_field.empty()) {
-    format.z = find_field(format.names, z_field);
-    format.has_z_field = format.z.has_value();
   }
   if (x && y) {
     format.x = *x;
@@ -202,6 +206,32 @@ void find_columns(TextFormat& format, bool named, const std::string& name, const
   if (!format.z && format.names.size() >= 3) format.z = 2;
 }
 
+/// Where a zone or grid reference stands, and the height after it.
+void find_position_columns(TextFormat& format, bool named, std::string_view first_field, PositionForm form,
+                           const std::string& name) {
+  const bool utm = form == PositionForm::Utm;
+  const std::optional<std::size_t> zone = find_name(format.names, kZoneNames);
+  const std::optional<std::size_t> x = find_name(format.names, kXNames);
+  const std::optional<std::size_t> y = find_name(format.names, kYNames);
+  const std::optional<std::size_t> whole =
+      find_name(format.names, utm ? Names(kUtmNames) : Names(kMgrsNames));
+  if (utm && zone && x && y) {
+    format.position = {*zone, *x, *y};
+  } else if (whole) {
+    format.position = {*whole};
+  } else if (named) {
+    throw Error(ErrorCode::BadFormat,
+                name + ": no column holds the positions (its columns: " + list(format.names) + "); name " +
+                    (utm ? "them zone, x, y, or one utm" : "one mgrs"));
+  } else {
+    const bool parted = utm && first_field.find(' ') == std::string_view::npos;
+    format.position = parted ? std::vector<std::size_t>{0, 1, 2} : std::vector<std::size_t>{0};
+  }
+  if (!format.z) format.z = find_name(format.names, kZNames);
+  const std::size_t next = format.position.size();
+  if (!format.z && !named && format.names.size() > next) format.z = next;
+}
+
 }  // namespace
 
 bool is_passed_over(std::string_view row) {
@@ -215,7 +245,8 @@ std::vector<std::string_view> split_row(std::string_view row, char separator) {
   std::size_t begin = 0;
   bool quoted = false;
   for (std::size_t i = 0; i <= row.size(); ++i) {
-    if (i < row.size() && row[i] == '"') quoted = !quoted;
+    const bool opens = !quoted && trim(row.substr(begin, i - begin)).empty();  // else it is a mark of seconds
+    if (i < row.size() && row[i] == '"' && (quoted || opens)) quoted = !quoted;
     const bool ends =
         i == row.size() || (!quoted && (separator == ' ' ? is_blank(row[i]) : row[i] == separator));
     if (!ends) continue;
@@ -234,8 +265,7 @@ std::optional<double> to_number(std::string_view text) {
   return value;
 }
 
-TextFormat detect_format(std::string_view rows, const std::string& name, const std::string& z_field,
-                         HeightRule heights) {
+TextFormat detect_format(std::string_view rows, const std::string& name, const ReadOptions& options) {
   constexpr std::size_t kSniffed = 4096;
   if (rows.substr(0, kSniffed).find('\0') != std::string_view::npos) {
     throw Error(ErrorCode::BadFormat,
@@ -244,9 +274,19 @@ TextFormat detect_format(std::string_view rows, const std::string& name, const s
   const FirstRow first = find_first_row(rows, name);
   TextFormat format;
   format.separator = find_separator(first.row);
-  const bool named = find_names(first, format);
-  find_columns(format, named, name, z_field);
-  if (!format.z && heights == HeightRule::Required) {
+  const bool named = find_names(first, options.coords.has_value(), format);
+  if (!options.z_field.empty()) {
+    format.z = find_field(format.names, options.z_field);
+    format.has_z_field = format.z.has_value();
+  }
+  if (options.coords && *options.coords != PositionForm::Dms) {
+    find_position_columns(format, named, split_row(first.row, format.separator).front(), *options.coords,
+                          name);
+  } else {
+    find_columns(format, named, name);
+    if (options.coords) format.position = {format.x, format.y};
+  }
+  if (!format.z && options.heights == HeightRule::Required) {
     throw Error(ErrorCode::MissingHeight, name + " has no column with heights (its columns: " +
                                               list(format.names) + "); name one z, or give --z-field NAME");
   }

@@ -20,9 +20,10 @@ struct TextFormat {
   std::vector<std::string> names;  ///< of the columns; field_1, field_2, ... where the file has none
   std::size_t x = 0;               ///< column
   std::size_t y = 1;
-  std::optional<std::size_t> z;  ///< none: points have no height
-  bool has_z_field = false;      ///< the column that was asked for is there
-  bool is_geographic = false;    ///< the columns are called longitude and latitude
+  std::optional<std::size_t> z;       ///< none: points have no height
+  bool has_z_field = false;           ///< the column that was asked for is there
+  std::vector<std::size_t> position;  ///< columns of a position in text; then x and y mean nothing
+  bool is_geographic = false;         ///< the columns are called longitude and latitude
   std::vector<std::string> notes;
 };
 
@@ -35,9 +36,10 @@ std::optional<double> to_number(std::string_view text);
 
 /// Finds out separator, header and columns from a file's first rows.
 /// A header is a first row without numbers or with the names of x and y, or a comment right before the first
-/// row that names x and y. Columns are taken by name; else the first three, if no name contradicts. Throws:
-/// Error{BadFormat}, Error{MissingHeight}, Error{EmptyInput}, naming `name`.
-TextFormat detect_format(std::string_view rows, const std::string& name, const std::string& z_field,
-                         HeightRule heights);
+/// row that names x and y. Columns are taken by name; else the first three, if no name contradicts. Where
+/// positions are text a header is a first row without digits; UTM stands in columns zone, x, y or utm, MGRS
+/// in mgrs, else in the first. Throws: Error{BadFormat}, Error{MissingHeight}, Error{EmptyInput}, naming
+/// `name`.
+TextFormat detect_format(std::string_view rows, const std::string& name, const ReadOptions& options);
 
 }  // namespace thalweg

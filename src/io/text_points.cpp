@@ -56,20 +56,19 @@ bool is_raster(const std::string& path) {
 
 class TextPoints : public SourceReader {
  public:
-  explicit TextPoints(const SourceSpec& spec) : SourceReader(spec), blocks_(virtual_path(spec.path), name()) {
-    const std::string path = without_gz(spec.path);
-    const std::size_t dot = path.find_last_of("./");
-    if (dot == std::string::npos || path[dot] != '.') return;
-    const std::string prj = path.substr(0, dot) + ".prj";
-    VSIStatBufL stat;
-    if (VSIStatExL(prj.c_str(), &stat, VSI_STAT_EXISTS_FLAG) == 0) set_reference(parse_reference(prj));
+  TextPoints(const SourceSpec& spec, const ReadOptions& options)
+      : SourceReader(spec), blocks_(virtual_path(spec.path), name()) {
+    read_prj(spec);
+    const bool other_datum = options.coords == PositionForm::Dms && reference().IsGeographic() != 0;
+    if (options.coords && !other_datum) set_reference(parse_reference("EPSG:4326"));
   }
 
   void read(ReadContext& run, PlaneTransform& transform) override {
     std::string_view block = without_byte_order_mark(blocks_.next());
-    const TextFormat format = detect_format(block, name(), run.options.z_field, run.options.heights);
+    const TextFormat format = detect_format(block, name(), run.options);
     take_format(run, format, block);
-    const RowParser parser(format, name(), run.options.heights);
+    const RowParser parser(format, name(), run.options);
+    run.coords.taken = true;
     PointCollector points(run, transform);
     rows_to_skip_ = format.header_rows;
     const auto rows = static_cast<double>(std::count(block.begin(), block.end(), '\n'));
@@ -84,6 +83,15 @@ class TextPoints : public SourceReader {
   }
 
  private:
+  void read_prj(const SourceSpec& spec) {
+    const std::string path = without_gz(spec.path);
+    const std::size_t dot = path.find_last_of("./");
+    if (dot == std::string::npos || path[dot] != '.') return;
+    const std::string prj = path.substr(0, dot) + ".prj";
+    VSIStatBufL stat;
+    if (VSIStatExL(prj.c_str(), &stat, VSI_STAT_EXISTS_FLAG) == 0) set_reference(parse_reference(prj));
+  }
+
   static std::string_view without_byte_order_mark(std::string_view text) {
     constexpr std::string_view kMark = "\xef\xbb\xbf";
     return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
@@ -156,8 +164,8 @@ bool is_text(const SourceSpec& spec) {
   return false;
 }
 
-std::unique_ptr<SourceReader> open_text(const SourceSpec& spec) {
-  return std::make_unique<TextPoints>(spec);
+std::unique_ptr<SourceReader> open_text(const SourceSpec& spec, const ReadOptions& options) {
+  return std::make_unique<TextPoints>(spec, options);
 }
 
 }  // namespace thalweg

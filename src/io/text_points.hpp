@@ -14,6 +14,6 @@ namespace thalweg {
 bool is_text(const SourceSpec& spec);
 
 /// Throws: Error{NotFound}, Error{Unreadable}, Error{BadCrs} (of a .prj file next to it).
-std::unique_ptr<SourceReader> open_text(const SourceSpec& spec);
+std::unique_ptr<SourceReader> open_text(const SourceSpec& spec, const ReadOptions& options);
 
 }  // namespace thalweg

@@ -8,6 +8,8 @@
 // The date of last change in the file is fixed, so that equal input gives equal bytes.
 // One-layer formats are made in memory and copied out: a shapefile is several files, and the drivers of
 // FlatGeobuf and GeoJSON do not notice a full disk. GeoJSON is rounded to about 15 digits by its driver.
+// Longitudes on both sides of the antimeridian run on beyond 180 or below -180, whichever is narrower: a
+// triangle or line that jumped would be drawn around the whole earth.
 // Triangles are polygons everywhere: OGR's type TIN is refused or lost by half of the drivers.
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
@@ -22,7 +24,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 namespace thalweg {
@@ -55,6 +59,33 @@ const char* conflict_word(Conflict::Kind kind) {
   return "unknown";
 }
 
+std::vector<Point2> turned_from(std::span<const Point2> xy, double west, double period) {
+  std::vector<Point2> turned(xy.begin(), xy.end());
+  for (Point2& p : turned) {
+    if (p.x < west || p.x >= west + period) p.x -= period * std::floor((p.x - west) / period);
+  }
+  return turned;
+}
+
+/// The positions in one turn of longitude, where they lie on both sides of the antimeridian (or of Greenwich,
+/// if longitudes run from 0); their middle is within half a turn of Greenwich. None: they can stay as they
+/// are.
+std::vector<Point2> across_antimeridian(std::span<const Point2> xy, double period) {
+  const auto sides = [](std::span<const Point2> points) {
+    const auto [west, east] = std::ranges::minmax(points, {}, &Point2::x);
+    return std::pair(west.x, east.x);
+  };
+  if (xy.empty()) return {};
+  const auto [west, east] = sides(xy);
+  if (east - west <= period / 2) return {};
+  for (const double start : {0.0, -period / 2}) {
+    const auto [low, high] = sides(turned_from(xy, start, period));
+    if (high - low < east - west)
+      return turned_from(xy, std::remainder((low + high) / 2, period) - period / 2, period);
+  }
+  return {};
+}
+
 enum class Transactions : std::uint8_t { One, None };
 
 /// How a driver is spoken to.
@@ -70,6 +101,7 @@ class LayerWriter {
   LayerWriter(const TinWriteJob& job, const std::string& path, LayerFormat format)
       : job_(job),
         tin_(job.view.tin),
+        xy_(job.xy()),
         format_(std::move(format)),
         journal_("OGR_SQLITE_JOURNAL", "OFF", false),
         synchronous_("OGR_SQLITE_SYNCHRONOUS", "OFF", false),
@@ -78,6 +110,10 @@ class LayerWriter {
       reference_ = parse_reference(job.view.crs_wkt);
     else if (!job.view.crs_authority.empty())
       reference_ = parse_reference(job.view.crs_authority);
+    if (reference_ && reference_->IsGeographic() != 0) {
+      turned_ = across_antimeridian(xy_, 2 * std::numbers::pi / reference_->GetAngularUnits());
+      if (!turned_.empty()) xy_ = turned_;
+    }
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(format_.driver);
     if (driver == nullptr) {
       throw Error(ErrorCode::Unsupported,
@@ -141,7 +177,7 @@ class LayerWriter {
   }
 
   void set_point(OGRSimpleCurve& curve, int i, VertexId v) const {
-    const Point2 p = job_.xy()[v.index()];
+    const Point2 p = xy_[v.index()];
     curve.setPoint(i, p.x, p.y, tin_.height(v));
   }
 
@@ -190,8 +226,8 @@ class LayerWriter {
                  {{"id", OFTInteger64}, {"is_pit", OFTInteger}, {"source", OFTString}});
     OGRPoint* const point = adopt(std::make_unique<OGRPoint>(0, 0, 0));
     for (std::size_t v = 0; v < tin_.vertex_count(); ++v) {
-      point->setX(job_.xy()[v].x);
-      point->setY(job_.xy()[v].y);
+      point->setX(xy_[v].x);
+      point->setY(xy_[v].y);
       point->setZ(tin_.heights()[v]);
       feature_->SetField(0, static_cast<GIntBig>(v));
       if (!job_.view.is_pit.empty()) feature_->SetField(1, job_.view.is_pit[v] != 0 ? 1 : 0);
@@ -241,6 +277,8 @@ class LayerWriter {
 
   const TinWriteJob& job_;
   const Tin& tin_;
+  std::span<const Point2> xy_;
+  std::vector<Point2> turned_;  // xy_, where they were turned
   LayerFormat format_;
   GdalSession session_;
   CPLConfigOptionSetter journal_, synchronous_, date_;

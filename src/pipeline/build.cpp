@@ -48,6 +48,26 @@ void narrow(std::vector<bool>& keep, const std::vector<bool>& stays) {
   }
 }
 
+/// Around a pole there is a triangle that longitudes cannot hold: its corners lie on both sides of the line
+/// opposite to the data's centre.
+void refuse_pole(const Terrain& terrain, const std::vector<bool>& keep, const Plane& plane) {
+  if (!plane.about_pole()) return;
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    if (!keep[t]) continue;
+    const Triangle& corner = terrain.ground.triangle(TriangleId{t});
+    const auto longitude = [&](std::size_t i) { return terrain.continuous[corner[i].index()].x; };
+    const auto [low, high] = std::minmax({longitude(0), longitude(1), longitude(2)});
+    if (high - low <= 180) continue;
+    const bool north = terrain.continuous[corner[0].index()].y > 0;
+    throw Error(ErrorCode::BadCoordinate,
+                std::string("the TIN goes around the ") + (north ? "north" : "south") +
+                    " pole, where longitude and latitude cannot hold its triangles; take a polar plane with "
+                    "--t-crs, as EPSG:" +
+                    (north ? "3413" : "3031") +
+                    ", or cut the data with --bbox, or rim triangles with --max-edge");
+  }
+}
+
 /// Which triangles of the ground are surface.
 std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& nodata, const Plane& plane,
                                     std::optional<double> max_edge_m, const Progress& progress) {
@@ -66,6 +86,7 @@ std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& 
            drop_long_rim_triangles(keep_triangles(ground, keep), *max_edge_m / plane.metres_per_unit()));
   }
   if (plane.projected()) {
+    refuse_pole(terrain, keep, plane);
     narrow(keep, drop_turned_rim_triangles(keep_triangles(ground, keep), terrain.continuous));
   }
   return keep;

@@ -181,7 +181,7 @@ void write_contours(const Job& job, const ContourConfig& contours, ConvertResult
   for (ContourLine& line :
        trace_contours(job.source.loaded.tin, {contours.interval, contours.base}, job.progress)) {
     if (plane.projected()) {
-      for (Point2& p : line.points) p = plane.to_written(p);
+      for (Point2& p : line.points) p = plane.without_jump(plane.to_written(p));
     }
     lines.push_back({line.height, std::move(line.points)});
   }

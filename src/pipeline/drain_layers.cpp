@@ -13,7 +13,7 @@ namespace {
 using Field = FeatureLayer::Field;
 
 Point2 written(const LoadedTin& loaded, VertexId v) {
-  return loaded.written.empty() ? loaded.tin.point(v) : loaded.written[v.index()];
+  return loaded.written.empty() ? loaded.tin.point(v) : loaded.plane.without_jump(loaded.written[v.index()]);
 }
 
 Point2 written(const LoadedTin& loaded, const FlowPoint& p) {

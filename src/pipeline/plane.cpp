@@ -2,6 +2,7 @@
 #include "pipeline/plane.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace thalweg {
@@ -44,6 +45,14 @@ Point2 Plane::to_written(Point2 plane) const {
   const Point2 lonlat = frame_->to_geographic(plane);
   if (crs_.degrees_per_unit == 1 && crs_.prime_meridian_deg == 0) return lonlat;
   return {(lonlat.x - crs_.prime_meridian_deg) / crs_.degrees_per_unit, lonlat.y / crs_.degrees_per_unit};
+}
+
+Point2 Plane::without_jump(Point2 written) const {
+  if (!frame_) return written;
+  const double x = from_greenwich(crs_, written).x;
+  const double centre = frame_->centre_deg().x;
+  if (std::abs(x - centre) <= 180) return written;
+  return {written.x - x_period() * std::round((x - centre) / 360), written.y};
 }
 
 Point2 Plane::to_lonlat(Point2 written) const {

@@ -33,6 +33,8 @@ class Plane {
   /// The plane as a PROJ string; empty if it is the CRS's own.
   [[nodiscard]] std::string proj_string() const { return frame_ ? frame_->proj_string() : std::string(); }
   [[nodiscard]] Ellipsoid ellipsoid() const { return {crs_.equatorial_radius_m, crs_.flattening}; }
+  /// True if the plane's straight lines may pass beyond a pole, which those of Mercator's never do.
+  [[nodiscard]] bool about_pole() const { return frame_ && frame_->projection() != Projection::Mercator; }
   /// Size of a full turn in written coordinates; 0 for a planar CRS.
   [[nodiscard]] double x_period() const { return projected() ? 360 / crs_.degrees_per_unit : 0; }
 
@@ -40,6 +42,9 @@ class Plane {
   /// All positions, on all threads.
   [[nodiscard]] std::vector<Point2> to_plane(std::span<const Point2> written, const Progress& progress) const;
   [[nodiscard]] Point2 to_written(Point2 plane) const;
+  /// Written coordinates whose x is within half a turn of the data's centre, so that lines do not jump at the
+  /// antimeridian. Most are so already, and stay as they are.
+  [[nodiscard]] Point2 without_jump(Point2 written) const;
   /// Longitude and latitude in degrees from Greenwich, without a jump at the antimeridian. Pre: projected().
   [[nodiscard]] Point2 to_lonlat(Point2 written) const;
   [[nodiscard]] std::vector<Point2> to_lonlat(std::span<const Point2> written) const;

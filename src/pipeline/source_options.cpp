@@ -55,6 +55,16 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
   command.add_option("--line-z-field", read.line_z_field, "attribute with the height of lines");
   command.add_option("--kind-field", read.kind_field, "attribute that says ridge or valley");
   command.add_option("--where", read.where, "attribute filter, SQL");
+  command
+      .add_option("--coords", read.coords, "text: positions are dms (degrees, minutes, seconds), utm or mgrs")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, PositionForm>{
+          {"dms", PositionForm::Dms}, {"utm", PositionForm::Utm}, {"mgrs", PositionForm::Mgrs}}));
+  command.add_option("--geoid", read.geoid,
+                     "geoid model, as egm2008-5, that heights are taken off, to be above it");
+  command.add_option("--heights-above", read.heights_above, "what heights are above before --geoid")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, HeightsAbove>{
+          {"ellipsoid", HeightsAbove::Ellipsoid}, {"geoid", HeightsAbove::Geoid}}))
+      ->default_str("ellipsoid");
   command.add_option("--classes", read.classes, "LAS: classes that are points, as 2,9 (2 is ground)")
       ->delimiter(',')
       ->expected(1)

@@ -3,6 +3,7 @@
 /// Reading points, lines and areas from files into one survey.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/geodesy/position_text.hpp>
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/io/crs.hpp>
 #include <thalweg/io/nodata_region.hpp>
@@ -60,6 +61,12 @@ enum class LasReturns {
   Last  ///< of single returns, the one there is
 };
 
+/// What the heights of sources are above, where a geoid model brings them from one to the other.
+enum class HeightsAbove {
+  Ellipsoid,  ///< as GNSS measures them; they become heights above the geoid
+  Geoid       ///< as maps have them; they become heights above the ellipsoid
+};
+
 /// How sources are read. An option that names a field, and `where`, apply to every source that has the field;
 /// a source that has not is read without it, and a note says so; no source that has it: Error.
 struct ReadOptions {
@@ -77,6 +84,11 @@ struct ReadOptions {
       assigned_crs;  ///< CRS of the survey by declaration, nothing is transformed to it; excludes target_crs
   std::vector<unsigned> classes;  ///< LAS: classes that are points (2 is ground); empty: all
   LasReturns returns = LasReturns::All;
+  /// How x and y of text are written, if not as plain numbers; they become longitude and latitude, of
+  /// WGS 84 unless a .prj file or `source_crs` tells another geographic CRS.
+  std::optional<PositionForm> coords;
+  std::string geoid;  ///< model (egm2008-5) whose heights are taken off or added; empty: none
+  HeightsAbove heights_above = HeightsAbove::Ellipsoid;  ///< before the geoid model comes to them
   NodataMode nodata = NodataMode::BridgeHoles;
   HeightRule heights = HeightRule::Required;
 };
