@@ -2,7 +2,7 @@
 """The plugin in real QGIS, without a window: every algorithm by qgis_process, and cancel in the middle of a run.
 
 Usage: qgis_plugin.py BINARY SOURCE [FOLDER]. The exit status is 77 where QGIS is not installed. With a folder, the
-outputs stay there, and QGIS draws them to map.png.
+outputs stay there, with the project that QGIS made of them and its picture, map.png.
 """
 import json
 import os
@@ -44,39 +44,92 @@ except Exception as error:
 print('left', sorted(os.listdir(os.path.dirname(sys.argv[2]))))
 """
 
-MAP = """
-import sys
-from qgis.core import (QgsApplication, QgsMapRendererParallelJob, QgsMapSettings, QgsMeshLayer, QgsVectorLayer,
-                       QgsRectangle, QgsRasterLayer)
+# Runs two algorithms as the toolbox does, which loads and styles what they made; QGIS draws the project.
+PROJECT = """
+import os, sys
+sys.path.append('/usr/share/qgis/python/plugins')
+from qgis.core import (QgsApplication, QgsMapRendererParallelJob, QgsMapSettings, QgsProcessingContext,
+                       QgsProcessingFeedback, QgsProject)
 from qgis.PyQt.QtCore import QSize
-from qgis.PyQt.QtGui import QColor
 app = QgsApplication([], False)
 app.initQgis()
-mesh = QgsMeshLayer('tin.ply', 'tin', 'mdal')
-settings = mesh.rendererSettings()
-native = settings.nativeMeshSettings()
-native.setEnabled(True)
-settings.setNativeMeshSettings(native)
-mesh.setRendererSettings(settings)
-lines = QgsVectorLayer('layers.gpkg|layername=breaklines', 'lines', 'ogr')
-lines.renderer().symbol().setColor(QColor('#d02020'))
-lines.renderer().symbol().setWidth(0.8)
-contours = QgsVectorLayer('contours.gpkg', 'contours', 'ogr')
-contours.renderer().symbol().setColor(QColor('#804000'))
-pits = QgsVectorLayer('layers.gpkg|layername=vertices', 'pits', 'ogr')
-pits.setSubsetString('is_pit = 1')
-pits.renderer().symbol().setColor(QColor('#0040ff'))
-pits.renderer().symbol().setSize(3)
+from processing.core.Processing import Processing
+from processing.gui.Postprocessing import handleAlgorithmResults
+Processing.initialize()
+sys.path.append(os.environ['QGIS_PLUGINPATH'])
+import thalweg_tin
+plugin = thalweg_tin.classFactory(None)
+plugin.initProcessing()
+project = QgsProject.instance()
+registry = QgsApplication.processingRegistry()
+def run(name, parameters):
+    context, feedback = QgsProcessingContext(), QgsProcessingFeedback()
+    context.setProject(project)
+    algorithm = registry.algorithmById(name)
+    results, right = algorithm.run(parameters, context, feedback)
+    return right and handleAlgorithmResults(algorithm, context, feedback, parameters=parameters)
+lines = sys.argv[1]
+print('build', run('thalweg:build', {'INPUT': 'points.gpkg', 'Z_FIELD': 'z', 'VALLEYS': [lines + '|layername=valleys'],
+                                     'RIDGES': [lines + '|layername=ridges'], 'OUTPUT': 'project.ply',
+                                     'LAYERS': 'project.gpkg'}))
+print('drain', run('thalweg:drain', {'INPUT': 'project.ply', 'OUTPUT': 'project_drain.gpkg'}))
+layers = {}
+for layer in project.mapLayers().values():
+    layers.setdefault(layer.name(), layer)
+print('names', sorted(layers), all(layer.isValid() for layer in layers.values()))
+print('crs', {layer.crs().authid() for layer in layers.values()})
+mesh, breaklines, pits = layers['project'], layers['Breaklines'], layers['Pits']
+print('triangles shown', mesh.rendererSettings().nativeMeshSettings().isEnabled())
+print('kinds', [rule.label() for rule in breaklines.renderer().rootRule().children()][:2])
+print('pits', pits.renderer().symbol().color().name(), pits.featureCount() > 0)
+project.write('project.qgz')
 settings = QgsMapSettings()
-settings.setLayers([pits, lines, contours, mesh])
+order = ['Pits', 'Conflicts', 'Breaklines', 'Network', 'Catchments', 'project']
+settings.setLayers([layers[name] for name in order])
 settings.setDestinationCrs(mesh.crs())
 settings.setExtent(mesh.extent())
 settings.setOutputSize(QSize(1400, 1050))
 job = QgsMapRendererParallelJob(settings)
 job.start()
 job.waitForFinished()
-job.renderedImage().save('map.png')
-print('layers', [l.isValid() for l in settings.layers()], mesh.crs().authid())
+image = job.renderedImage()
+image.save('map.png')
+colors = {image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)}
+print('drawn', [color in colors for color in ('#1f6fd0', '#8a4b08', '#0040ff', '#000000')])
+"""
+
+# A model of two of the algorithms, as the designer saves it.
+MODEL = """
+import os, sys
+sys.path.append('/usr/share/qgis/python/plugins')
+from qgis.core import (QgsApplication, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm,
+                       QgsProcessingModelChildParameterSource as Source, QgsProcessingModelOutput,
+                       QgsProcessingModelParameter, QgsProcessingParameterFeatureSource)
+app = QgsApplication([], False)
+app.initQgis()
+from processing.core.Processing import Processing
+Processing.initialize()
+sys.path.append(os.environ['QGIS_PLUGINPATH'])
+import thalweg_tin
+plugin = thalweg_tin.classFactory(None)
+plugin.initProcessing()
+model = QgsProcessingModelAlgorithm('terrain', 'tests')
+model.addModelParameter(QgsProcessingParameterFeatureSource('points', 'Points'), QgsProcessingModelParameter('points'))
+build = QgsProcessingModelChildAlgorithm('thalweg:build')
+build.setChildId('build')
+build.addParameterSources('INPUT', [Source.fromModelParameter('points')])
+build.addParameterSources('Z_FIELD', [Source.fromStaticValue('z')])
+model.addChildAlgorithm(build)
+contours = QgsProcessingModelChildAlgorithm('thalweg:contours')
+contours.setChildId('contours')
+contours.addParameterSources('INPUT', [Source.fromChildOutput('build', 'OUTPUT')])
+contours.addParameterSources('INTERVAL', [Source.fromStaticValue(25)])
+lines = QgsProcessingModelOutput('contours', 'Contours')
+lines.setChildOutputName('OUTPUT')
+lines.setChildId('contours')
+contours.setModelOutputs({'contours': lines})
+model.addChildAlgorithm(contours)
+print('saved', model.toFile('terrain.model3'))
 """
 
 
@@ -152,6 +205,8 @@ def main():
         bench.algorithm("tintoraster", "dem.tif", INPUT=tin, RESOLUTION=5, OUTPUT=f"{folder}/dem.tif")
         bench.algorithm("contours", "contours.gpkg", INPUT=tin, INTERVAL=10, OUTPUT=f"{folder}/contours.gpkg")
         bench.algorithm("tintolayers", "more.gpkg", INPUT=tin, OUTPUT=f"{folder}/more.gpkg")
+        bench.algorithm("drain", "drain.gpkg", INPUT=tin, OUTPUT=f"{folder}/drain.gpkg", SEED_SPACING=50,
+                        REPORT=f"{folder}/drain.json")
         bench.algorithm("export", "tin.xml", INPUT=tin, OUTPUT=f"{folder}/tin.xml")
         status, text = bench.run(QGIS_PROCESS, "run", "thalweg:build", f"--INPUT={folder}/points.gpkg",
                                  "--OPTIMIZE=beauty", f"--OUTPUT={folder}/no.ply")
@@ -166,9 +221,15 @@ def main():
         os.makedirs(f"{folder}/stopped")
         _, text = bench.run(PYTHON, "-c", CANCEL, f"{folder}/many.gpkg", f"{folder}/stopped/tin.ply")
         bench.check("cancel stops at once and leaves nothing", "stopped True" in text and "left []" in text, text)
-        if len(sys.argv) > 3:
-            _, text = bench.run(PYTHON, "-c", MAP)
-            bench.check("map", "[True, True, True, True] EPSG:32632" in text, text)
+        _, text = bench.run(PYTHON, "-c", PROJECT, str(lines))
+        for line in ("build True", "drain True", "crs {'EPSG:32632'}", "triangles shown True", "kinds ['Valleys', 'Ridges']",
+                     "pits #0040ff True", "drawn [True, True, True, True]"):
+            bench.check(f"project: {line}", line in text, text)
+        _, text = bench.run(PYTHON, "-c", MODEL)
+        bench.check("model saved", "saved True" in text, text)
+        status, text = bench.run(QGIS_PROCESS, "run", f"{folder}/terrain.model3", f"--points={folder}/points.gpkg",
+                                 f"--contours:contours={folder}/of_model.gpkg")
+        bench.check("model run", status == 0 and os.path.exists(f"{folder}/of_model.gpkg"), text)
         print(f"{bench.failed} failed")
         return 1 if bench.failed else 0
 

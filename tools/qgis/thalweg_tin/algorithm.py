@@ -2,29 +2,14 @@
 
 import re
 
-from qgis.core import (QgsMapLayer, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
-                       QgsProcessingLayerPostProcessorInterface, QgsProcessingParameterDefinition,
-                       QgsProcessingUtils, QgsVectorLayer)
+from qgis.core import (QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
+                       QgsProcessingParameterDefinition, QgsProcessingUtils, QgsVectorLayer)
+
+from .style import LayerStyle
 
 MESHES = ("PLY mesh (*.ply);;UGRID mesh (*.nc);;SMS mesh (*.2dm);;LandXML surface (*.xml);;VTK grid (*.vtu);;"
           "Wavefront object (*.obj);;Object file format (*.off);;Stereolithography (*.stl);;glTF binary (*.glb)")
 _FORMATS = ["gpkg", "shp", "geojson", "fgb"]
-
-
-class MeshStyle(QgsProcessingLayerPostProcessorInterface):
-    """Shows the triangles of a mesh that was loaded."""
-
-    kept = []  # QGIS does not keep them alive
-
-    def postProcessLayer(self, layer, context, feedback):  # noqa: N802
-        if layer is None or layer.type() != QgsMapLayer.MeshLayer:
-            return
-        settings = layer.rendererSettings()
-        native = settings.nativeMeshSettings()
-        native.setEnabled(True)
-        settings.setNativeMeshSettings(native)
-        layer.setRendererSettings(settings)
-        layer.triggerRepaint()
 
 
 class ThalwegAlgorithm(QgsProcessingAlgorithm):
@@ -81,16 +66,23 @@ class ThalwegAlgorithm(QgsProcessingAlgorithm):
             return
         details = QgsProcessingContext.LayerDetails(name, context.project(), output,
                                                     QgsProcessingUtils.LayerHint.Mesh)
-        style = MeshStyle()
-        MeshStyle.kept.append(style)
-        details.setPostProcessor(style)
+        details.setPostProcessor(LayerStyle())
         context.addLayerToLoadOnCompletion(path, details)
 
-    def load_layers(self, path, output, context):
-        """Asks for the layers of a GeoPackage that a map wants to be loaded."""
+    def load_layers(self, path, names, output, context):
+        """Asks for layers of a GeoPackage to be loaded; the last is on top. A TIN's pits are some of its vertices."""
         if context.project() is None:
             return
-        for layer in ("breaklines", "conflicts", "vertices"):
-            uri = f"{path}|layername={layer}"
-            context.addLayerToLoadOnCompletion(uri, QgsProcessingContext.LayerDetails(
-                f"TIN {layer}", context.project(), output, QgsProcessingUtils.LayerHint.Vector))
+        for name in names:
+            of_vertices = name == "tin_pits"
+            uri = f"{path}|layername=vertices|subset=\"is_pit\" = 1" if of_vertices else f"{path}|layername={name}"
+            kind = "pits" if of_vertices else name
+            details = QgsProcessingContext.LayerDetails(kind.replace("_", " ").capitalize(), context.project(), output,
+                                                        QgsProcessingUtils.LayerHint.Vector)
+            details.forceName = True  # all have the file's else
+            details.setPostProcessor(LayerStyle(kind))
+            context.addLayerToLoadOnCompletion(uri, details)
+
+    def load_tin_layers(self, path, output, context):
+        """Those layers of a TIN that a map wants."""
+        self.load_layers(path, ("breaklines", "conflicts", "tin_pits"), output, context)

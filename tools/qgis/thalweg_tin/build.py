@@ -79,7 +79,8 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
         if layer is None:
             raise QgsProcessingException(self.invalidSourceError(parameters, "INPUT"))
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
-        arguments = ["build", self.source(layer, context, feedback), output, "--overwrite", "--progress"]
+        layers = self.parameterAsFileOutput(parameters, "LAYERS", context) if parameters.get("LAYERS") else ""
+        arguments = ["build", self.source(layer, context, feedback), layers or output, "--overwrite", "--progress"]
         for name, option in (("VALLEYS", "--valleys"), ("RIDGES", "--ridges"), ("BREAKLINES", "--breaklines"),
                              ("BOUNDARY", "--boundary"), ("HOLES", "--holes"), ("LAKES", "--lakes")):
             for lines in self.parameterAsLayerList(parameters, name, context) or []:
@@ -108,10 +109,9 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
                 arguments += [option, path]
                 results[name] = path
         run(arguments, feedback)
-        layers = self.parameterAsFileOutput(parameters, "LAYERS", context) if parameters.get("LAYERS") else ""
-        if layers:
-            run(["convert", output, layers, "--of", "GPKG", "--overwrite", "--progress"], feedback)
+        if layers:  # which alone hold the conflicts; the mesh is made from them
+            run(["convert", layers, output, "--overwrite", "--progress"], feedback)
             results["LAYERS"] = layers
-            self.load_layers(layers, "LAYERS", context)
+            self.load_tin_layers(layers, "LAYERS", context)
         self.load_mesh(output, "TIN", "OUTPUT", context)
         return results

@@ -80,7 +80,7 @@ class TinToLayers(ThalwegAlgorithm):
     TITLE = "TIN to vector layers"
     GROUP = "Convert"
     HELP = """A GeoPackage with the layers triangles, edges (with their kind), vertices (is_pit marks pits) and
-breaklines. Breaklines and vertices are loaded."""
+breaklines. Breaklines and pits are loaded."""
 
     def initAlgorithm(self, config=None):  # noqa: N802
         self.addParameter(QgsProcessingParameterMeshLayer("INPUT", "TIN"))
@@ -90,7 +90,7 @@ breaklines. Breaklines and vertices are loaded."""
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
         run(["convert", self.mesh_path(parameters, "INPUT", context), output, "--of", "GPKG", "--overwrite",
              "--progress"], feedback)
-        self.load_layers(output, "OUTPUT", context)
+        self.load_tin_layers(output, "OUTPUT", context)
         return {"OUTPUT": output}
 
 

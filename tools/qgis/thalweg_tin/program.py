@@ -93,6 +93,8 @@ def run(arguments, feedback):
     progress.end_line()
     for thread in threads:
         thread.join()
+    process.stdout.close()
+    process.stderr.close()
     status = process.wait()
     text = b"".join(iter(out.get, b"")).decode(errors="replace")
     if stopped:

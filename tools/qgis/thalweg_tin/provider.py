@@ -8,6 +8,7 @@ from qgis.PyQt.QtGui import QIcon
 
 from .build import BuildTin
 from .convert import ExportTin, TinToContours, TinToLayers, TinToRaster
+from .drain import DrainageReport
 from .optimize import OptimizeTin
 from .orders import ConstrainedOrders
 from .program import SETTING
@@ -41,5 +42,5 @@ class ThalwegProvider(QgsProcessingProvider):
 
     def loadAlgorithms(self):  # noqa: N802
         for algorithm in (BuildTin, SimplifyDem, OptimizeTin, ConstrainedOrders, TinToRaster, TinToContours, TinToLayers,
-                          ExportTin):
+                          ExportTin, DrainageReport):
             self.addAlgorithm(algorithm())

@@ -1,0 +1,53 @@
+"""Drainage report."""
+
+from qgis.core import (QgsProcessing, QgsProcessingParameterFileDestination, QgsProcessingParameterMapLayer,
+                       QgsProcessingParameterMeshLayer, QgsProcessingParameterNumber)
+
+from .algorithm import ThalwegAlgorithm
+from .program import run
+
+
+class DrainageReport(ThalwegAlgorithm):
+    """Pits, flow paths, network and catchments of a TIN."""
+
+    NAME = "drain"
+    TITLE = "Drainage report"
+    GROUP = "Hydrology"
+    KEYWORDS = ["tin", "hydrology", "pits", "depressions", "flow", "catchments", "watersheds", "streams"]
+    HELP = """Follows water down the surface of a TIN: pits with their depth, area and volume, flow paths from points or
+from a lattice, the drainage network, catchments that tile the TIN, and where drawn lines do not hold. Heights are not
+changed. The layers are loaded; the report is JSON."""
+
+    def initAlgorithm(self, config=None):  # noqa: N802
+        self.addParameter(QgsProcessingParameterMeshLayer("INPUT", "TIN"))
+        for name, label in (("OUTLETS", "Points where water leaves"), ("SEEDS", "Points from which paths are followed")):
+            self.addParameter(QgsProcessingParameterMapLayer(name, label, optional=True,
+                                                             types=[QgsProcessing.TypeVectorPoint]))
+        for name, label in (("SEED_SPACING", "Follow paths from a lattice (metres)"),
+                            ("MIN_AREA", "Least area that a reach of the network drains (m2)"),
+                            ("PASS_PITS", "Pits at most so deep are full (metres)")):
+            self.advanced(QgsProcessingParameterNumber(name, label, QgsProcessingParameterNumber.Double, optional=True,
+                                                       minValue=0))
+        self.addParameter(QgsProcessingParameterFileDestination("OUTPUT", "Layers", "GeoPackage (*.gpkg)"))
+        self.addParameter(QgsProcessingParameterFileDestination("REPORT", "Report", "JSON (*.json)", optional=True,
+                                                                createByDefault=False))
+
+    def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
+        output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
+        arguments = ["drain", self.mesh_path(parameters, "INPUT", context), output, "--overwrite", "--progress"]
+        for name, option in (("OUTLETS", "--outlets"), ("SEEDS", "--seeds")):
+            layer = self.parameterAsLayer(parameters, name, context)
+            if layer is not None:
+                arguments += [option, self.source(layer, context, feedback)]
+        for name, option in (("SEED_SPACING", "--seed-spacing"), ("MIN_AREA", "--min-area"),
+                             ("PASS_PITS", "--pass-pits")):
+            if parameters.get(name) is not None:
+                arguments += [option, repr(self.parameterAsDouble(parameters, name, context))]
+        results = {"OUTPUT": output}
+        report = self.parameterAsFileOutput(parameters, "REPORT", context) if parameters.get("REPORT") else ""
+        if report:
+            arguments += ["--report", report]
+            results["REPORT"] = report
+        run(arguments, feedback)
+        self.load_layers(output, ("catchments", "network", "flow_paths", "pits"), "OUTPUT", context)
+        return results
