@@ -13,6 +13,16 @@ import tempfile
 
 MESHIO = ("import meshio, sys; m = meshio.read(sys.argv[1]); "
           "print(len(m.points), sum(len(c.data) for c in m.cells if c.type == 'triangle'))")
+VTK = """
+import sys
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+reader = vtkXMLUnstructuredGridReader()
+reader.SetFileName(sys.argv[1])
+reader.Update()
+grid = reader.GetOutput()
+types = [grid.GetCellType(i) for i in range(grid.GetNumberOfCells())]
+print(grid.GetNumberOfPoints(), types.count(5), types.count(3) > 0, reader.GetErrorCode())
+"""
 MDAL = """
 import sys
 from qgis.core import QgsApplication, QgsMeshLayer
@@ -52,6 +62,11 @@ def meshio(path, vertices, triangles):
     return text.split()[-2:] == [str(vertices), str(triangles)], text
 
 
+def vtk(path, vertices, triangles):
+    text = run(PYTHON, "-c", VTK, path)
+    return f"{vertices} {triangles} True 0" in text, text
+
+
 def mdal(path, vertices, triangles):
     text = run(PYTHON, "-c", MDAL, path)
     crs = "" if path.endswith(".2dm") else " EPSG:32632"
@@ -72,6 +87,7 @@ READERS = [
     ("GDAL", lambda: shutil.which("ogrinfo"), ogr, [".fgb", ".shp", ".geojson"]),
     ("assimp", lambda: shutil.which("assimp"), assimp, [".glb", ".stl", ".off", ".obj"]),
     ("meshio", lambda: imports("meshio"), meshio, [".vtu", ".stl", ".off", ".obj"]),
+    ("VTK", lambda: imports("vtkmodules.vtkIOXML"), vtk, [".vtu"]),
     ("ncdump", lambda: shutil.which("ncdump"), ncdump, [".nc"]),
     ("xmllint", lambda: shutil.which("xmllint"), xmllint, [".xml"]),
     ("QGIS (MDAL)", lambda: imports("qgis.core"), mdal, [".ply", ".2dm", ".nc"]),
@@ -85,7 +101,7 @@ def main():
         os.chdir(work)
         survey = f"{source}/sample_terrains/survey"
         run(binary, "build", f"{survey}/points.csv", "tin.ply", "-q", "--a-crs", "EPSG:32632", "--order", "0",
-            "--valleys", f"{survey}/lines.gpkg|layername=valleys", "--bbox", "676000,5148000,676300,5148300")
+            "--valleys", f"{survey}/lines.gpkg|layername=valleys")
         info = run(binary, "info", "tin.ply")
         vertices, triangles = (int(re.search(rf"^{word} +(\d+)$", info, re.M).group(1))
                                for word in ("vertices", "triangles"))
