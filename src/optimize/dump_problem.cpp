@@ -12,6 +12,7 @@
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <ostream>
 #include <string>
@@ -231,6 +232,27 @@ class Writer {
   std::size_t functions_ = 0;
 };
 
+/// Where the first value is that of the worst term: counts the terms that are no better than what the
+/// optimiser gives.
+template <std::size_t Criteria>
+void count_no_better(FirstOrderProblem<Criteria>& problem, const Tin& tin,
+                     std::span<const Quadrilateral> quadrilaterals, const OptimizeOptions& options,
+                     Progress& progress) {
+  const Objective objective = problem.sums[0];
+  OptimizeOptions alone = options;
+  alone.criteria = {objective};
+  if (problem.pits_first) alone.criteria.insert(alone.criteria.begin(), Criterion::LocalMinima);
+  const double result = optimize_first_order(tin, quadrilaterals, alone, progress).criteria.back().result;
+  const TermScan scan(tin, quadrilaterals, problem.owner,
+                      {options.horizontal_metres_per_unit, options.vertical_metres_per_unit},
+                      options.reference, most_at_vertex(options.width_limit));
+  const Extreme extreme = find_extreme(scan, objective, problem.labelling.first, progress);
+  const auto better = static_cast<std::int64_t>(std::llround(result * steps_per_unit(objective))) - 1;
+  problem.delaunay[0] =
+      count_excess(scan, objective, {better, extreme.vertex ? &*extreme.vertex : nullptr, {}}, 0,
+                   problem.labelling, progress);
+}
+
 }  // namespace
 
 void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
@@ -238,16 +260,13 @@ void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilater
   if (options.criteria.empty()) {
     throw Error(ErrorCode::Usage, "without a criterion there is no problem to write; choose one");
   }
-  const auto sum = std::find_if(options.criteria.begin(), options.criteria.end(),
-                                [](const Objective& o) { return !o.is(Criterion::LocalMinima); });
-  if (sum != options.criteria.end() && sum->is_extreme()) {
-    throw Error(ErrorCode::Unsupported, sum->name() +
-                                            " is the worst of its terms, not a sum that a problem for "
-                                            "another solver could hold; name a sum first");
-  }
   progress.start_phase("write the problem");
   with_levels(options.criteria, [&](auto levels) {
-    Writer<levels()>(out, build_problem<levels()>(tin, quadrilaterals, options, progress)).write(progress);
+    auto problem = build_problem<levels()>(tin, quadrilaterals, options, progress);
+    if (!problem.sums.empty() && problem.sums[0].is_extreme()) {
+      count_no_better(problem, tin, quadrilaterals, options, progress);
+    }
+    Writer<levels()>(out, std::move(problem)).write(progress);
   });
 }
 

@@ -54,6 +54,7 @@ class Run {
   Run(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, const OptimizeOptions& options,
       std::size_t reported, Progress& progress)
       : criteria_(std::span(options.criteria).first(reported)),
+        completed_(reported < options.criteria.size()),
         limits_{options.width_limit, options.effort},
         proof_(options.proof),
         progress_(progress),
@@ -209,6 +210,8 @@ class Run {
       write_proof();
       if (held_) hold(held_->most, 0);
     }
+    // What decides where nothing was named needs no bound.
+    if (completed_) limits_.effort /= kLessForCompletion;
     if (!problem_.pit_level) {
       solution_ = solve_held(labelling);
       keep_limits();
@@ -395,8 +398,10 @@ class Run {
   };
 
   static constexpr int kRounds = 40;  ///< then all vertices are counted
+  static constexpr std::uint64_t kLessForCompletion = 100;
 
   std::span<const Objective> criteria_;
+  bool completed_;  ///< by a criterion that was not asked for
   SolverLimits limits_;
   std::ostream* proof_;
   Progress& progress_;

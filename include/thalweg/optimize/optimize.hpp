@@ -79,9 +79,11 @@ OptimizeResult optimize_first_order(const Tin& tin, std::span<const Quadrilatera
 /// more pits than need be; the pits themselves are not in the cost. The cost is the value of the first sum
 /// among the criteria in steps of 2^-32 of its unit, the triangulation's constant part included; of flips, if
 /// there is no sum. The optimum found is so 2^32 times the `result` of that criterion. Lower priorities,
-/// flips and the tie rule are left out. Pre and Throws: as optimize_first_order, and Error{Usage} if there is
-/// no criterion; Error{Unsupported} if the first criterion besides local minima is no sum. Complexity:
-/// linear, but for b^3 where b plateaus hang together.
+/// flips and the tie rule are left out. If the first criterion besides local minima is the worst of its
+/// terms, the cost is the number of terms that are no better than the result, which is found first: an
+/// optimum above 0 says that nothing is better. Pre and Throws: as optimize_first_order, and Error{Usage} if
+/// there is no criterion. Complexity: linear, but for b^3 where b plateaus hang together, and what the result
+/// takes.
 void dump_problem(std::ostream& out, const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                   const OptimizeOptions& options, Progress& progress);
 
