@@ -3,12 +3,14 @@
 // 1. Read, project, refuse a TIN that is not valid. Outlets go to the nearest corner of the triangle that
 // holds
 //    them.
-// 2. Find the flow once; pits, network, catchments and paths are read off it.
+// 2. Condition heights if asked to. Find the flow once; pits, network, catchments and paths are read off it.
 // 3. Write all layers aside, then the report; rename together.
+#include "pipeline/condition_tin.hpp"
 #include "pipeline/drain_layers.hpp"
 #include "terrain/triangle_grid.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/write_tin.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/drain.hpp>
 
@@ -155,11 +157,15 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   PendingOutputs outputs;
   const bool to_file = !config.report_path.empty() && config.report_path != "-";
   const std::string report_path = to_file ? outputs.add(config.report_path, mode) : std::string();
+  if (!config.conditioned_path.empty()) {
+    check_write_options(config.conditioned_path, {});
+    PendingOutputs().add(config.conditioned_path, mode);
+  }
   DrainReport report;
   report.input = config.input;
 
   progress.start_phase("read");
-  const LoadedTin loaded = load_tin(config.input, progress);
+  LoadedTin loaded = load_tin(config.input, progress);
   if (const auto violations = validate(loaded.tin); !violations.empty()) {
     throw Error(ErrorCode::InvalidTin,
                 fmt::format("{} breaks law {}: {}; `thalweg info` lists all violations", config.input,
@@ -171,6 +177,13 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   }
   const TriangleGrid grid(loaded.tin);
   const std::vector<VertexId> outlets = place_outlets(loaded, grid, config, report, progress);
+  std::vector<HeightChange> changes;
+  if (!config.condition.empty()) {
+    ConditionedTin conditioned = condition_tin(loaded, outlets, config, progress);
+    loaded.tin = std::move(conditioned.tin);  // the same triangles: `grid` goes on to hold
+    changes = std::move(conditioned.changes);
+    report.conditioned = conditioned.report;
+  }
   const SurfaceFlow flow(loaded.tin, outlets, progress);
   const MetricScale scale = loaded.plane.scale();
   const PitTable table = tabulate_pits(flow, scale, progress);
@@ -198,10 +211,12 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   report.catchments = catchments.size();
   const std::vector<SeededPath> paths = follow_seeds(loaded, flow, grid, config, report, progress);
 
-  const std::vector<FeatureLayer> layers = {
+  std::vector<FeatureLayer> layers = {
       pit_layer(loaded, table), path_layer(loaded, flow, paths), network_layer(loaded, flow, network),
       catchment_layer(loaded, flow, catchments, area_m2), inconsistency_layer(loaded, report.consistency)};
+  if (report.conditioned) layers.push_back(change_layer(loaded, changes));
   write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
+  if (!config.conditioned_path.empty()) write_conditioned(loaded, config, outputs, progress);
   if (to_file) write_report(report_path, config.report_path, report);
   progress.check();
   outputs.commit();
@@ -226,7 +241,7 @@ std::string to_json(const DrainReport& r) {
     rising.push_back({{"from", place.from.value()}, {"to", place.to.value()}, {"rise_m", place.rise_m}});
   }
   const Consistency& c = r.consistency;
-  const Json json = {
+  Json json = {
       {"tin",
        {{"path", r.input}, {"vertices", r.vertices}, {"triangles", r.triangles}, {"area_m2", r.area_m2}}},
       {"pits",
@@ -258,6 +273,12 @@ std::string to_json(const DrainReport& r) {
         {"flat_triangles", c.flat_triangles},
         {"flat_edges", c.flat_edges}}},
       {"notes", r.notes}};
+  if (r.conditioned) {
+    json["conditioned"] = {{"heights", r.conditioned->changed}, {"sum_m", r.conditioned->sum_m},
+                           {"max_m", r.conditioned->max_m},     {"pits_before", r.conditioned->pits_before},
+                           {"filled", r.conditioned->filled},   {"breached", r.conditioned->breached},
+                           {"pits_left", r.conditioned->left}};
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -270,6 +291,13 @@ std::string to_text(const DrainReport& r) {
   const Consistency& c = r.consistency;
   row("TIN", r.input);
   row("area, m2", fmt::format("{:.1f}", r.area_m2));
+  if (r.conditioned) {
+    row("heights changed", fmt::format("{}, by {:.2f} m together, {:.2f} m at most", r.conditioned->changed,
+                                       r.conditioned->sum_m, r.conditioned->max_m));
+    row("pits filled, breached, left",
+        fmt::format("{}, {}, {} of {}", r.conditioned->filled, r.conditioned->breached, r.conditioned->left,
+                    r.conditioned->pits_before));
+  }
   row("pits inside", fmt::format("{}", r.interior_pits));
   if (r.lakes > 0) row("lakes", fmt::format("{}", r.lakes));
   std::string classes;

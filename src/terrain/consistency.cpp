@@ -1,6 +1,7 @@
-// Drawn lines against the surface: edges by what falls to them (flow_graph), valley lines followed from end
-// to end to learn which way they run.
+// Drawn lines against the surface: edges by what falls to them (flow_graph), valley lines (valley_lines) for
+// which way they run.
 #include "terrain/flow_graph.hpp"
+#include "terrain/valley_lines.hpp"
 
 #include <thalweg/terrain/consistency.hpp>
 
@@ -15,11 +16,7 @@ namespace {
 class Checker {
  public:
   Checker(const SurfaceFlow& flow, const MetricScale& scale)
-      : flow_(flow),
-        graph_(flow.graph()),
-        tin_(graph_.tin),
-        scale_(scale),
-        valleys_at_(tin_.vertex_count()) {}
+      : flow_(flow), graph_(flow.graph()), tin_(graph_.tin), scale_(scale), valleys_(trace_valleys(tin_)) {}
 
   Consistency run() {
     for (std::size_t i = 0; i < tin_.halfedge_count(); ++i) {
@@ -29,10 +26,10 @@ class Checker {
       const Triangle& t = tin_.triangle(TriangleId{i});
       result_.flat_triangles += graph_.level(TriangleId{i}) ? 1 : 0;
       const bool all =
-          std::all_of(t.begin(), t.end(), [&](VertexId v) { return !valleys_at_[v.index()].empty(); });
+          std::all_of(t.begin(), t.end(), [&](VertexId v) { return valleys_.on_valley[v.index()] != 0; });
       result_.triangles_on_valleys += all ? 1 : 0;
     }
-    follow_valleys();
+    for (const std::vector<VertexId>& line : valleys_.lines) note_rises(line);
     result_.places.insert(result_.places.end(), crossed_.begin(), crossed_.end());
     return std::move(result_);
   }
@@ -49,8 +46,6 @@ class Checker {
                             scale_.horizontal_metres_per_unit;
       result_.valley_length_m += length;
       if (valley) result_.draining_length_m += length;
-      valleys_at_[a.index()].push_back(b);
-      valleys_at_[b.index()].push_back(a);
     }
     if (!has(tin_.kind(h), EdgeKind::Ridge)) return;
     ++result_.ridge_edges;
@@ -60,22 +55,6 @@ class Checker {
     if (!((here == Fall::Out && there == Fall::In) || (here == Fall::In && there == Fall::Out))) return;
     ++result_.crossed_ridge_edges;
     crossed_.push_back({.kind = Inconsistency::Kind::RidgeCrossed, .from = a, .to = b});
-  }
-
-  void follow_valleys() {
-    std::vector<VertexId> line;
-    for (std::size_t i = 0; i < valleys_at_.size(); ++i) {
-      if (valleys_at_[i].empty() || valleys_at_[i].size() == 2) continue;
-      for (const VertexId first : valleys_at_[i]) {
-        line = {VertexId{i}, first};
-        while (valleys_at_[line.back().index()].size() == 2) {
-          const std::vector<VertexId>& on = valleys_at_[line.back().index()];
-          line.push_back(on[0] == line[line.size() - 2] ? on[1] : on[0]);
-        }
-        if (tin_.height(line.back()) < tin_.height(line.front()))
-          note_rises(line);  // else seen from the other end
-      }
-    }
   }
 
   void note_rises(const std::vector<VertexId>& line) {
@@ -96,7 +75,7 @@ class Checker {
   const MetricScale& scale_;
   Consistency result_;
   std::vector<Inconsistency> crossed_;
-  std::vector<std::vector<VertexId>> valleys_at_;
+  ValleyLines valleys_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/io/source.hpp>
+#include <thalweg/terrain/condition.hpp>
 #include <thalweg/terrain/consistency.hpp>
 #include <thalweg/terrain/pit_table.hpp>
 
@@ -25,6 +26,21 @@ struct DrainConfig {
   std::optional<double> seed_spacing_m;  ///< and a lattice of such points
   std::optional<double> min_area_m2;     ///< of the network; none: a thousandth of the TIN
   double pass_pits_m = 0;                ///< pits that are not deeper are full and spill
+  std::vector<ConditionStep> condition;  ///< none: no height changes
+  ChangeNorm condition_norm = ChangeNorm::Sum;
+  std::optional<double> condition_max_m;
+  std::string conditioned_path;  ///< the TIN with its new heights, in a format by extension; empty: none
+};
+
+/// What conditioning changed.
+struct ConditionReport {
+  std::size_t changed = 0;
+  double sum_m = 0;  ///< of the sizes of the changes
+  double max_m = 0;
+  std::size_t filled = 0;  ///< pits
+  std::size_t breached = 0;
+  std::size_t left = 0;
+  std::size_t pits_before = 0;  ///< interior ones
 };
 
 struct DrainReport {
@@ -53,10 +69,16 @@ struct DrainReport {
   std::size_t pits_passed = 0;
   std::size_t broken_cycles = 0;
   Consistency consistency;
+  std::optional<ConditionReport> conditioned;
   std::vector<std::string> notes;
 };
 
-/// Writes the layers pits, flow_paths, network, catchments and inconsistencies to a GeoPackage.
+/// Reads one or more of monotone-valleys, fill, breach, separated by commas. Throws: Error{Usage}.
+std::vector<ConditionStep> parse_condition(const std::string& text);
+
+/// Writes the layers pits, flow_paths, network, catchments and inconsistencies to a GeoPackage. With
+/// `condition` heights are changed first, all else is found on the new ones, and the layer conditioned lists
+/// the changes.
 /// Throws: as read_tin and write_features; Error{InvalidTin}; Error{OutsideHull} for an outlet outside of the
 /// TIN. Nothing is left behind then.
 DrainReport drain_tin(const DrainConfig& config, Progress& progress);
