@@ -5,19 +5,20 @@
 //    sights.cpp), nearest first or, where 5 holds, as they come. Edges at u that block part the ground around
 //    it into fans, each searched alone: no valid triangle at u has such an edge inside.
 // 2. Let t be a valid triangle at u with order <= k and disc D. Of the vertices x in D that u sees, many must
-// count:
-//    a. Visible. Say no constraint edge at u lies between the directions of x and of t. Then x counts under
-//    Pathcon,
-//       for the segments xu and those of t leave u through one piece of the disc, and under SeesTriang and
+//    count:
+//    a. Visible. Say x lies in the fan of t, less than half a turn from it. Then x counts under Pathcon, for
+//       the segments xu and those of t leave u through one piece of the disc, and under SeesTriang and
 //       SeesVtx: beside u, x sees points of the side of t beyond which it lies, and it sees u.
 //    b. NearEnds. Say t = uvw in either turn, and x lies beyond uv. Segment xw crosses uv, at q, and from
-//    there on runs
-//       through t. If an edge crosses xq, one of its ends lies in triangle uxq, for nothing crosses the
-//       segments ux and uq; of these ends the one whose direction from u is nearest to v (the nearest of
-//       them, on a tie) is seen by u. So x counts under SeesOpp if u sees no end of a constraint edge, other
-//       than x itself, between the directions of v and x as near as q or x. If the angle at u is the largest
-//       of t, at least 60 degrees, then by the law of sines |uq| <= |ux| / sin 60. Beyond vw, x counts
-//       anyway, because it sees u.
+//       there on runs through t. If an edge crosses xq, one of its ends lies in triangle uxq, for nothing
+//       crosses the segments ux and uq; of these ends the one whose direction from u is nearest to v (the
+//       nearest of them, on a tie) is seen by u. So x counts under SeesOpp if u sees no end of a constraint
+//       edge, other than x itself, between the directions of v and x as near as q or x. If the angle at u is
+//       the largest of t, then by the law of sines |uq| <= |ux| / sin 60. Beyond vw, x counts anyway, because
+//       it sees u. With the largest angle at u, w lies 60 degrees or more from v to one side, and both within
+//       a right angle of the direction of D's centre: so either w is to the left, all x up to 60 degrees left
+//       of v count, farther left only ends beyond that are of weight, and the centre lies from 30 degrees
+//       right to 90 degrees left of v; or the same the other way round. There must be no t of either kind.
 // 3. A gap is given up when every disc through u and any place in the gap as far as its edge, or farther,
 //    holds more than k vertices that count by 2: no v there has a triangle of order <= k with u. For 2b the
 //    ends within reach of x must be known: gaps go by distance, so all nearer ends are, save those in gaps
@@ -31,16 +32,15 @@
 //    no more than k cover; that one is tried first on the gaps that come from this one. Most are settled by
 //    the few nearest vertices, which come first.
 // 5. Visible, where k is small: most gaps are given up, or gone on with, by disc_depth.cpp, which looks at
-// all
-//    directions c at once, and at the ends a, b of the gap's edge: if free segment uv crosses it, every disc
-//    through u and v has a or b inside. (Edge ab has a circle that holds no vertex which sees a point of its
-//    inside. The two that see the crossing of ab and uv are u and v. If a, b were outside the one circle, and
-//    u, v outside the other, the product of the lengths from the crossing to a and b would be at least, and
-//    at most, that to u and v; equality is for the tie rule, which is a perturbation.) If a is one that
-//    counts, a disc through u with a inside and at most k holds at most k - 1 beside it.
+//    all directions c at once, and at the ends a, b of the gap's edge: if free segment uv crosses it, every
+//    disc through u and v has a or b inside. (Edge ab has a circle that holds no vertex which sees a point of
+//    its inside. The crossing of ab and uv sees u and v. If a, b were outside the one circle, and u, v
+//    outside the other, the product of the lengths from the crossing to a and b would be at least, and at
+//    most, that to u and v; equality is for the tie rule, which is a perturbation.) If a is one that counts,
+//    a disc through u with a inside and at most k holds at most k - 1 beside it. NearEnds: the same tells
+//    where a test would be in vain, for no more count than are seen.
 // 6. This part alone, 3 to 5, is done in rounded arithmetic, with covers made smaller and discs larger by far
-// more
-//    than its errors: it decides what is searched, not what is found. What u sees is decided exactly.
+//    more than its errors: it decides what is searched, not what is found. What u sees is decided exactly.
 //
 // Where directions are compared they are measured by the diamond angle, which grows with the angle from 0 to
 // 4 and by 1 a quarter turn.
@@ -54,10 +54,7 @@ namespace thalweg::detail {
 
 namespace {
 
-constexpr double kReach = 1.1548;  // above 1 / sin 60
 constexpr double kWider = 1 + 1e-9;
-constexpr double kAngleSlack = 1e-11;
-constexpr double kCoverSlack = 1e-10;
 // A gap is tested again once it is that much farther: few more are searched, and many tests saved.
 constexpr double kFarther = 1.1;
 // The same for gaps that disc_depth.cpp has not given up, from that many times the mean distance of the
@@ -66,49 +63,9 @@ constexpr double kMuchFarther = 1.5;
 constexpr double kFar = 2;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
-// What the largest angle of a triangle has at least, less what rounding may take off it.
-constexpr double kLeastAngle = kPi / 3 - 1e-6;
-
-double diamond_angle(double x, double y) {
-  const double share = x / (std::abs(x) + std::abs(y));
-  return y >= 0 ? 1 - share : 3 + share;
-}
-
-// From one direction counter-clockwise to another, in [0, 4).
-double turn_between(double from, double to) {
-  const double turn = to - from;
-  return turn < 0 ? turn + 4 : turn;
-}
-
-double normal(double angle) {
-  if (angle < 0) return angle + 4;
-  return angle >= 4 ? angle - 4 : angle;
-}
 
 // For a heap with the nearest gap first.
 constexpr auto by_distance = [](const auto& a, const auto& b) { return a.distance > b.distance; };
-
-// Near the hull only vertices far along a narrow gap tell that it is hopeless, so many count; the limit keeps
-// a vertex that sees thousands from a cost that is quadratic in them.
-constexpr std::size_t kMostCounted = 1024;
-// From 90 degrees down to 3.
-constexpr int kHalvings = 5;
-
-using Direction = FanSearch::Direction;
-
-double dot(Direction a, Direction b) {
-  return a.x * b.x + a.y * b.y;
-}
-double length(Direction a) {
-  return std::sqrt(dot(a, a));
-}
-Direction turned(Direction a, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * a.x - s * a.y, s * a.x + c * a.y};
-}
-Direction scaled(Direction a, double factor) {
-  return {a.x * factor, a.y * factor};
-}
 
 }  // namespace
 
@@ -418,138 +375,6 @@ double FanSearch::distance_to(const Gap& gap) const {
   const double foot = std::clamp(-(start_x * along_x + start_y * along_y) / length_square, low, high);
   const double near = length({start_x + foot * along_x, start_y + foot * along_y});
   return near - kError * (length({start_x, start_y}) + edge_length);
-}
-
-bool FanSearch::certain(const Range& range, const Seen& seen) const {
-  if (pruning_ == FanPruning::Visible) {
-    return narrow_ || (seen.turn > range.left_turn - kPi && seen.turn < range.right_turn + kPi);
-  }
-  const double from_right = turn_between(range.right, seen.angle);
-  const double to_left = turn_between(seen.angle, range.left);
-  const double breadth = turn_between(range.right, range.left);
-  if (from_right <= breadth)
-    return kReach * seen.distance <= range.horizon && clear(range.right, breadth, seen);
-  if (from_right < 2) {
-    const double sector = range.role == Role::Right ? turn_between(range.right, range.sector_end) : 0;
-    if (range.role == Role::Right && from_right <= sector) return true;
-    return kReach * seen.distance <= range.horizon &&
-           clear(normal(range.right + sector), from_right - sector, seen);
-  }
-  if (to_left < 2) {
-    const double sector = range.role == Role::Left ? turn_between(range.sector_end, range.left) : 0;
-    if (range.role == Role::Left && to_left <= sector) return true;
-    return kReach * seen.distance <= range.horizon && clear(seen.angle, to_left - sector, seen);
-  }
-  return false;
-}
-
-// Whether no stop that may hide a vertex seen lies from one direction on as far as `turn`.
-bool FanSearch::clear(double from, double turn, const Seen& seen) const {
-  const double reach = kReach * seen.distance;
-  if (reach < nearest_stop_) return true;
-  from = normal(from - kAngleSlack);
-  const double breadth = turn + 2 * kAngleSlack;
-  const auto first = static_cast<std::size_t>(from * kSectorsAUnit) % kSectors;
-  const auto last = static_cast<std::size_t>(normal(from + breadth) * kSectorsAUnit) % kSectors;
-  const bool unclear = sectors_[first] <= reach || sectors_[last] <= reach;
-  if (first != last) {
-    for (std::size_t i = (first + 1) % kSectors; i != last; i = (i + 1) % kSectors) {
-      if (sectors_[i] <= reach) return false;
-    }
-  }
-  if (!unclear) return true;
-  return std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) {
-    return stop.distance <= reach && (!stop.vertex.valid() || stop.vertex != seen.vertex) &&
-           turn_between(from, stop.angle) <= breadth;
-  });
-}
-
-FanSearch::Probe FanSearch::probe(const Range& range, Direction c) {
-  return {c, std::max(dot(range.right_at, c), dot(range.left_at, c)) + range.slack};
-}
-
-bool FanSearch::deep_at(const Range& range, Direction c) const {
-  const Probe at = probe(range, c);
-  std::size_t depth = 0;
-  for (std::size_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
-    if (at.covered_by(seen_[i]) && certain(range, seen_[i]) && ++depth > k_) return true;
-  }
-  return false;
-}
-
-// Whether more than k of the active vertices cover all directions between, where that is not so.
-bool FanSearch::deep_between(const Range& range, const Probe& from, const Probe& to, int halvings,
-                             Direction& open) const {
-  const Direction sum{from.c.x + to.c.x, from.c.y + to.c.y};
-  const Probe middle = probe(range, scaled(sum, 1 / length(sum)));
-  std::size_t depth = 0, right_depth = 0, left_depth = 0;
-  for (const std::uint32_t i : active_) {
-    if (!middle.covered_by(seen_[i])) continue;
-    ++depth;
-    right_depth += from.covered_by(seen_[i]) ? 1 : 0;
-    left_depth += to.covered_by(seen_[i]) ? 1 : 0;
-    if (right_depth > k_ && left_depth > k_) return true;
-  }
-  if (depth <= k_ || halvings == 0) {
-    open = middle.c;
-    return false;
-  }
-  return (right_depth > k_ || deep_between(range, from, middle, halvings - 1, open)) &&
-         (left_depth > k_ || deep_between(range, middle, to, halvings - 1, open));
-}
-
-// The vertices that certainly count and cover any of the range's chief directions; false if some of these
-// are covered by k or fewer.
-bool FanSearch::activate(const Range& range, const std::array<Probe, 4>& chief, Direction& open) {
-  active_.clear();
-  std::array<std::size_t, 4> depth{};
-  for (std::size_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
-    std::array<bool, 4> covered{};
-    for (std::size_t j = 0; j < 4; ++j) covered[j] = chief[j].covered_by(seen_[i]);
-    if (!(covered[0] || covered[1] || covered[2] || covered[3]) || !certain(range, seen_[i])) continue;
-    for (std::size_t j = 0; j < 4; ++j) depth[j] += covered[j] ? 1 : 0;
-    active_.push_back(static_cast<std::uint32_t>(i));
-  }
-  for (std::size_t j = 0; j < 4; ++j) {
-    if (depth[j] > k_) continue;
-    open = chief[j].c;
-    return false;
-  }
-  return true;
-}
-
-bool FanSearch::hopeless(const Range& range, std::array<Direction, 2>& open) {
-  if (pruning_ == FanPruning::None || seen_.size() <= k_) return false;
-  if (pruning_ == FanPruning::Visible) return hopeless_as(Role::Any, range, open[0]);
-  return hopeless_as(Role::Right, range, open[0]) && hopeless_as(Role::Left, range, open[1]);
-}
-
-bool FanSearch::hopeless_as(Role role, Range range, Direction& open) {
-  range.slack = kCoverSlack * std::max(length(range.right_at), length(range.left_at));
-  range.role = role;
-  Direction from{range.to_right.y, -range.to_right.x};
-  Direction to{-range.to_left.y, range.to_left.x};
-  if (role == Role::Right) {
-    if (beside_blocks_ && breadth_ - range.right_turn < kLeastAngle) return true;
-    const Direction end = turned(range.to_right, kLeastAngle);
-    range.sector_end = diamond_angle(end.x, end.y);
-    from = turned(range.to_right, kLeastAngle - kPi / 2);
-  } else if (role == Role::Left) {
-    if (beside_blocks_ && range.left_turn < kLeastAngle) return true;
-    const Direction end = turned(range.to_left, -kLeastAngle);
-    range.sector_end = diamond_angle(end.x, end.y);
-    to = turned(range.to_left, kPi / 2 - kLeastAngle);
-  }
-  if (open != Direction{} && (dot(open, range.to_right) > 0 || dot(open, range.to_left) > 0) &&
-      !deep_at(range, open)) {
-    return false;
-  }
-  const Probe first = probe(range, from), last = probe(range, to);
-  const Probe right = probe(range, range.to_right), left = probe(range, range.to_left);
-  if (!activate(range, {first, right, left, last}, open)) return false;
-  return deep_between(range, first, right, kHalvings, open) &&
-         (range.right_turn == range.left_turn || deep_between(range, right, left, kHalvings, open)) &&
-         deep_between(range, left, last, kHalvings, open);
 }
 
 }  // namespace thalweg::detail

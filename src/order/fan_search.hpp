@@ -3,6 +3,7 @@
 /// The vertices that can share a triangle of low order with one vertex: a search outward from it.
 
 #include "order/disc_depth.hpp"
+#include "order/fan_types.hpp"
 #include "order/ground.hpp"
 #include "order/stamped_map.hpp"
 
@@ -32,11 +33,6 @@ class FanSearch {
     Inverted
         inverse;  ///< its position inverted about u, times a scale; `turn` is from the fan's first direction
   };
-  struct Direction {
-    double x = 0, y = 0;
-    bool operator==(const Direction&) const = default;
-  };
-
   void start(const Ground& ground, VertexId u, std::size_t k, FanPruning pruning);
   /// Searches the next fan; false if there is none left. Finds each vertex v in it that u sees, and that can
   /// be a corner with u of a valid triangle of order at most k in this fan: with FanPruning::NearEnds, only
@@ -52,24 +48,11 @@ class FanSearch {
   [[nodiscard]] bool closed() const { return closed_; }
 
  private:
-  /// A vertex seen, relative to u.
-  struct Seen {
-    VertexId vertex;
-    double x = 0, y = 0;
-    double distance = 0;
-    double turn = 0;   ///< from the fan's first direction
-    double angle = 0;  ///< diamond angle, with NearEnds
-    Direction inverse;
-    double slack = 0;        ///< more than what rounding may do to products of `inverse` with unit vectors
-    std::uint32_t next = 0;  ///< counter-clockwise; after the last comes the first
-  };
-  /// What ends certainty about the vertices farther round: a direction, for all vertices farther than
-  /// `distance` over kReach.
-  struct Stop {
-    VertexId vertex;  ///< invalid: a side of a gap that was given up
-    double angle = 0;
-    double distance = 0;
-  };
+  using Seen = FanTypes::Seen;
+  using Stop = FanTypes::Stop;
+  using Role = FanTypes::Role;
+  using Range = FanTypes::Range;
+  using Probe = FanTypes::Probe;
   /// A gap of the view, between two vertices seen: `edge` is entered from u's side; no part of it within the
   /// angle is nearer than `distance`.
   struct Gap {
@@ -78,29 +61,6 @@ class FanSearch {
     double distance = 0;
     double tested = 0;              ///< the distance at which it, or one it comes from, was last tested
     std::array<Direction, 2> open;  ///< for each role one that few covered; zero: not known
-  };
-  /// What is known of the triangle's other corner w, as seen from u: nothing, or that it is 60 degrees or
-  /// more counter-clockwise, or clockwise, of the place looked at.
-  enum class Role : std::uint8_t { Any, Right, Left };
-  /// A closed range of directions, counter-clockwise, and the positions in it at some distance or farther, as
-  /// the corners of a triangle with u that holds them all after inversion.
-  struct Range {
-    double right_turn = 0, left_turn = 0;
-    double right = 0, left = 0;   ///< diamond angles
-    Direction to_right, to_left;  ///< unit vectors
-    Direction right_at, left_at;  ///< the corners
-    double horizon = 0;           ///< what lies nearer is known
-    double slack = 0;
-    Role role = Role::Any;
-    double sector_end = 0;  ///< of any but Any: a diamond angle 60 degrees from the range's far end
-  };
-  /// A direction, and what products of inverse positions with it must exceed to cover it.
-  struct Probe {
-    Direction c;
-    double threshold = 0;
-    [[nodiscard]] bool covered_by(const Seen& seen) const {
-      return seen.inverse.x * c.x + seen.inverse.y * c.y - seen.slack > threshold;
-    }
   };
 
   void enter_fan(HalfedgeId first);
@@ -156,6 +116,8 @@ class FanSearch {
   std::vector<Gap> gaps_;  ///< a heap by distance; with `tabled_` all so far
   std::vector<Seen> seen_;
   std::vector<Stop> stops_;
+  /// Relative: far above what rounding does, where positions inverted are compared.
+  static constexpr double kCoverSlack = 1e-10;
   static constexpr std::size_t kSectorsAUnit = 16;
   static constexpr std::size_t kSectors = 4 * kSectorsAUnit;
   std::array<double, kSectors> sectors_{};  ///< of diamond angles: the distance of the nearest stop in it

@@ -185,7 +185,7 @@ const std::vector<std::vector<Criterion>> kPriorities = {
 TEST(OptimizeFaces, IsTheBestOfAll) {
   int number = 0;
   std::size_t partial_faces = 0;
-  for_each_scene(oracle::kStreams, 30, kSmall, [&](const Oracle& oracle) {
+  for_each_scene(oracle::kStreams, 60, kSmall, [&](const Oracle& oracle) {
     oracle::Dice dice("optimize-faces-" + std::to_string(number++));
     const int levels = dice.between(2, 7);
     std::vector<double> heights;

@@ -144,6 +144,83 @@ TEST(OrderTriangles, AreAmongAllTriplesWithManyConstraints) {
   compare_with_all_triples(120, 120, 30);
 }
 
+// Of a lattice of 12 x 12 vertices, those triangles whose discs lie well within it.
+std::vector<OrderTriangle> inner_triangles(double width, double height, std::size_t k) {
+  constexpr std::size_t kSide = 12;
+  std::vector<Point2> points;
+  for (std::size_t i = 0; i < kSide * kSide; ++i) {
+    points.push_back({width * static_cast<double>(i % kSide), height * static_cast<double>(i / kSide)});
+  }
+  Progress progress;
+  const Tin ground = triangulate(points, std::vector<double>(points.size(), 0.0), {}, progress);
+  std::vector<OrderTriangle> inner;
+  for (const OrderTriangle& t : find_order_triangles(ConstrainedOrder(ground), {.max_order = k}, progress)) {
+    const bool deep = std::ranges::all_of(t.corners, [](VertexId v) {
+      const std::size_t x = v.index() % kSide, y = v.index() / kSide;
+      return x >= 4 && x < kSide - 4 && y >= 4 && y < kSide - 4;
+    });
+    if (deep) inner.push_back(t);
+  }
+  return inner;
+}
+
+TEST(OrderTriangles, OfSquareCellsAreFirstOrderUpToThree) {
+  const auto first = inner_triangles(10, 10, 1);
+  EXPECT_EQ(first.size(), 4 * 9U);  // four in each cell
+  EXPECT_TRUE(inner_triangles(10, 10, 2) == first);
+  EXPECT_TRUE(inner_triangles(10, 10, 3) == first);
+}
+
+TEST(OrderTriangles, OfLongCellsAreMoreAtOrderThree) {
+  const auto found = inner_triangles(10, 15, 3);
+  const Triangle slanting{VertexId{5 * 12 + 4}, VertexId{5 * 12 + 5}, VertexId{6 * 12 + 6}};
+  EXPECT_TRUE(std::ranges::any_of(found, [&](const OrderTriangle& t) { return t.corners == slanting; }));
+  EXPECT_GT(found.size(), inner_triangles(10, 15, 1).size());
+}
+
+// By the tie rule, of vertices on one circle, in the order of (x, y), those count that come before the last
+// corner, and lie on its side of the line through the other two.
+TEST(OrderTriangles, OfVerticesOnOneCircleFollowTheTieRule) {
+  const std::array<Point2, 12> circle = {{{1, 18},
+                                          {6, 17},
+                                          {10, 15},
+                                          {15, 10},
+                                          {17, 6},
+                                          {18, 1},
+                                          {18, -1},
+                                          {15, -10},
+                                          {6, -17},
+                                          {-1, -18},
+                                          {-15, -10},
+                                          {-17, 6}}};
+  for (std::size_t n = 5; n <= circle.size(); ++n) {
+    std::vector<Point2> points(circle.begin(), circle.begin() + static_cast<std::ptrdiff_t>(n));
+    std::ranges::sort(points, [](Point2 a, Point2 b) { return std::pair(a.x, a.y) < std::pair(b.x, b.y); });
+    Progress progress;
+    const Tin ground = triangulate(points, std::vector<double>(n, 0.0), {}, progress);
+    for (std::size_t k = 0; k <= 4; ++k) {
+      std::vector<OrderTriangle> expected;
+      for (std::size_t c = 2; c < n; ++c) {
+        for (std::size_t b = 1; b < c; ++b) {
+          for (std::size_t a = 0; a < b; ++a) {
+            const int side = orientation(points[a], points[b], points[c]);
+            std::uint32_t order = 0;
+            for (std::size_t d = 0; d < c; ++d) {
+              order += orientation(points[a], points[b], points[d]) == side ? 1 : 0;
+            }
+            Triangle corners{VertexId{a}, VertexId{b}, VertexId{c}};
+            if (side < 0) std::swap(corners[1], corners[2]);
+            if (order <= k) expected.push_back({corners, order});
+          }
+        }
+      }
+      std::ranges::sort(expected);
+      EXPECT_TRUE(find_order_triangles(ConstrainedOrder(ground), {.max_order = k}, progress) == expected)
+          << n << " vertices, up to " << k;
+    }
+  }
+}
+
 TEST(OrderTriangles, ReportProgressAndStop) {
   test::Random random;
   SCOPED_TRACE(random.trace());
