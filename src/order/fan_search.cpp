@@ -65,7 +65,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
 
 // For a heap with the nearest gap first.
-constexpr auto by_distance = [](const auto& a, const auto& b) { return a.distance > b.distance; };
+constexpr auto kByDistance = [](const auto& a, const auto& b) { return a.distance > b.distance; };
 
 }  // namespace
 
@@ -93,10 +93,11 @@ bool FanSearch::next_fan() {
   enter_fan(first);
   open_gaps(first);
   if (tabled_) {
-    for (std::size_t i = 0; i < gaps_.size(); ++i) expand(Gap(gaps_[i]));
+    std::size_t next = 0;  // expanding adds more
+    while (next < gaps_.size()) expand(Gap(gaps_[next++]));
   }
   while (!tabled_ && !gaps_.empty()) {
-    std::pop_heap(gaps_.begin(), gaps_.end(), by_distance);
+    std::pop_heap(gaps_.begin(), gaps_.end(), kByDistance);
     const Gap gap = gaps_.back();
     gaps_.pop_back();
     expand(gap);
@@ -250,7 +251,7 @@ void FanSearch::push(HalfedgeId edge, Gap gap) {
   gap.edge = edge;
   if (!tabled_) gap.distance = std::max(gap.distance, distance_to(gap));
   gaps_.push_back(gap);
-  if (!tabled_) std::push_heap(gaps_.begin(), gaps_.end(), by_distance);
+  if (!tabled_) std::push_heap(gaps_.begin(), gaps_.end(), kByDistance);
 }
 
 // Whether no disc of order <= k through u and a vertex of the gap has an end of its edge inside.
