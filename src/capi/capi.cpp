@@ -115,20 +115,54 @@ void check_name(const std::string& name) {
               "there is no option '" + name + "' of what is built; see `thalweg build --help`");
 }
 
-thalweg::BuildConfig config_of(const thalweg_job& job, std::size_t& threads) {
-  Options options;
+void parse(CLI::App& command, const thalweg_job& job) {
   std::vector<std::string> words;  // the last one first, as CLI11 takes them
   for (const auto& [name, value] : job.options) words.push_back("--" + name + "=" + value);
   std::reverse(words.begin(), words.end());
   try {
-    options.command.parse(words);
+    command.parse(words);
   } catch (const CLI::ParseError& error) {
     throw Error(ErrorCode::Usage, error.what());
   }
+}
+
+thalweg::BuildConfig config_of(const thalweg_job& job, std::size_t& threads) {
+  Options options;
+  parse(options.command, job);
   threads = options.threads;
   thalweg::BuildConfig config = thalweg::cli::config_of(options.command, std::move(options.arguments));
   config.points = job.points;
   return config;
+}
+
+/// Labelling alone, for a TIN that exists.
+thalweg::OptimizeConfig optimize_config_of(const thalweg_job& job, const char* path, std::size_t& threads) {
+  if (!job.points.empty() || !job.memory.xy.empty() || !job.memory.lines.empty()) {
+    throw Error(ErrorCode::Usage, "a TIN is optimised as it is; use a job without points and lines");
+  }
+  thalweg::cli::LabellingArguments arguments;
+  CLI::App command;
+  thalweg::cli::add_labelling_options(command, arguments);
+  command.add_option("--threads", threads)->check(CLI::Range(1, 1024));
+  command.set_help_flag();
+  parse(command, job);
+  return {.input = path, .labelling = thalweg::cli::parse_labelling(arguments)};
+}
+
+/// Runs `work`, which gives a BuiltTin, on so many threads (0: all).
+template <class Work>
+std::unique_ptr<thalweg_tin> built_by(thalweg_job& job, std::size_t threads, const Work& work) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
+  auto result = std::make_unique<thalweg_tin>();
+  struct Renewal {
+    thalweg_job& job;
+    ~Renewal() { job.renew(); }
+  } const renewal{job};
+  result->built = work();
+  result->constraints = result->built.tin.constraint_edges();
+  result->report = thalweg::to_json(result->built.report);
+  return result;
 }
 
 }  // namespace
@@ -241,17 +275,20 @@ thalweg_status thalweg_job_build(thalweg_job* job, thalweg_tin** tin) {
     require(tin, "where the TIN goes");
     std::size_t threads = 0;
     const thalweg::BuildConfig config = config_of(*job, threads);
-    std::optional<tbb::global_control> limit;
-    if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, threads);
-    auto result = std::make_unique<thalweg_tin>();
-    struct Renewal {
-      thalweg_job& job;
-      ~Renewal() { job.renew(); }
-    } const renewal{*job};
-    result->built = thalweg::build_tin(config, job->memory, *job->progress);
-    result->constraints = result->built.tin.constraint_edges();
-    result->report = thalweg::to_json(result->built.report);
-    *tin = result.release();
+    *tin = built_by(*job, threads, [&] {
+             return thalweg::build_tin(config, job->memory, *job->progress);
+           }).release();
+  });
+}
+
+thalweg_status thalweg_job_optimize(thalweg_job* job, const char* path, thalweg_tin** tin) {
+  return guarded([&] {
+    require(job, "the job");
+    require(path, "the path");
+    require(tin, "where the TIN goes");
+    std::size_t threads = 0;
+    const thalweg::OptimizeConfig config = optimize_config_of(*job, path, threads);
+    *tin = built_by(*job, threads, [&] { return thalweg::optimized_tin(config, *job->progress); }).release();
   });
 }
 

@@ -90,7 +90,7 @@ Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points,
 
 }  // namespace
 
-Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
+BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   Stopwatch watch;
   BuiltTin built;
   Report& report = built.report;
@@ -117,7 +117,11 @@ Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
 
   finish_run(std::move(terrain), {plane, crs, config.labelling, config.output, outputs, watch}, built,
              progress);
-  return report;
+  return built;
+}
+
+Report optimize_tin(const OptimizeConfig& config, Progress& progress) {
+  return optimized_tin(config, progress).report;
 }
 
 }  // namespace thalweg

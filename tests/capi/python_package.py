@@ -71,6 +71,23 @@ class Package(unittest.TestCase):
                         "--max-error", "20")
         self.assertLessEqual(tin.report["simplification"]["largest_error_m"]["result"], 20)
 
+    def test_a_tin_that_exists(self):
+        given, mine, theirs = (f"{self.folder.name}/{name}.ply" for name in ("given", "mine", "theirs"))
+        lines = f"{SURVEY}/lines.gpkg|layername=valleys"
+        subprocess.run([BINARY, "build", f"{SURVEY}/points.csv", given, "-q", "--valleys", lines, "--a-crs",
+                        "EPSG:32632", "--order", "0"], check=True)
+        tin = thalweg.optimize(given, optimize="edge-length")
+        tin.write(mine)
+        subprocess.run([BINARY, "optimize", given, theirs, "-q", "--optimize", "edge-length"], check=True)
+        self.assertTrue(filecmp.cmp(mine, theirs, shallow=False))
+        self.assertGreater(len(tin.constraints[1]), 0)
+        with self.assertRaises(thalweg.ThalwegError) as raised:
+            thalweg.optimize(given, max_error=1)
+        self.assertEqual(raised.exception.code, "usage")
+        with self.assertRaises(thalweg.ThalwegError) as raised:
+            thalweg.optimize("missing.ply")
+        self.assertEqual(raised.exception.code, "not-found")
+
     def test_what_comes_back(self):
         points = np.array([[x, y, (3 * x + y) % 4] for y in range(6) for x in range(7)], float)
         tin = thalweg.build(points, breaklines=[[[0, 0], [3, 2]], [[3, 2], [6, 5]]], optimize="none")

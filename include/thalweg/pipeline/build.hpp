@@ -98,5 +98,7 @@ struct OptimizeConfig {
 /// An edge of the outline that is no edge of the constrained Delaunay triangulation becomes a constraint
 /// edge.
 Report optimize_tin(const OptimizeConfig& config, Progress& progress);
+/// The same, with the TIN; without an output path nothing is written.
+BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress);
 
 }  // namespace thalweg

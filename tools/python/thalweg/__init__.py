@@ -8,6 +8,6 @@
 The shared library libthalweg_c.so.1 is found by the loader, or named by the environment variable THALWEG_LIBRARY.
 """
 from ._library import ThalwegError, version
-from ._tin import BOUNDARY, BREAKLINE, HOLE, LAKE, RIDGE, VALLEY, Tin, build
+from ._tin import BOUNDARY, BREAKLINE, HOLE, LAKE, RIDGE, VALLEY, Tin, build, optimize
 
-__all__ = ["BOUNDARY", "BREAKLINE", "HOLE", "LAKE", "RIDGE", "VALLEY", "ThalwegError", "Tin", "build", "version"]
+__all__ = ["BOUNDARY", "BREAKLINE", "HOLE", "LAKE", "RIDGE", "VALLEY", "ThalwegError", "Tin", "build", "optimize", "version"]

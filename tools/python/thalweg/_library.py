@@ -3,7 +3,7 @@ import ctypes
 import os
 from ctypes import POINTER, c_char_p, c_double, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_void_p
 
-API_VERSION = 1
+API_VERSION = 2
 PROGRESS = ctypes.CFUNCTYPE(c_int, c_char_p, c_double, c_void_p)
 
 _SIGNATURES = {
@@ -20,6 +20,7 @@ _SIGNATURES = {
     "job_set_progress": (c_int, [c_void_p, PROGRESS, c_void_p]),
     "job_cancel": (None, [c_void_p]),
     "job_build": (c_int, [c_void_p, POINTER(c_void_p)]),
+    "job_optimize": (c_int, [c_void_p, c_char_p, POINTER(c_void_p)]),
     "tin_free": (None, [c_void_p]),
     "tin_vertex_count": (c_size_t, [c_void_p]),
     "tin_triangle_count": (c_size_t, [c_void_p]),

@@ -100,20 +100,8 @@ def _set_options(job: int, options: Dict[str, Any]) -> None:
             call("job_set_option", job, name.replace("_", "-").encode(), str(part).encode())
 
 
-def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (), valleys: Iterable[Source] = (),
-          breaklines: Iterable[Source] = (), boundary: Iterable[Source] = (), holes: Iterable[Source] = (), lakes: Iterable[Source] = (),
-          crs: Optional[str] = None, progress: Optional[Progress] = None, **options: Any) -> Tin:
-    """Builds a TIN.
-
-    points: an array (n, 3) of x, y, z, a source "PATH" or "PATH|layername=NAME", or a list of sources. Vertex i
-    of the TIN is the i-th distinct point that is used.
-    ridges, valleys, breaklines: sources, or arrays (n, 3) with heights or (n, 2) without; boundary, holes,
-    lakes: the same, each array one closed ring. crs: of the coordinates, where sources do not say it (option a-crs).
-    options: those of `thalweg build`, dashes as underscores: order=1, optimize="none", max_error=0.5.
-    progress: called with phase and fraction; cancels if it returns True; what it raises is raised here.
-
-    Raises: ThalwegError, whose `code` is "cancelled", "usage", "not-found", ...
-    """
+def _run(fill: Callable[[int], None], work: Callable[[int, Any], None], progress: Optional[Progress]) -> Tin:
+    """Makes a job, fills it, and runs `work` on it and the place where the TIN goes."""
     job = LIBRARY.thalweg_job_new()
     if not job:
         raise MemoryError
@@ -128,6 +116,36 @@ def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (
 
     callback = PROGRESS(report)
     try:
+        fill(job)
+        call("job_set_progress", job, callback, None)
+        tin = ctypes.c_void_p()
+        try:
+            work(job, ctypes.byref(tin))
+        except Exception:
+            if raised:
+                raise raised[0] from None
+            raise
+        return Tin(tin.value)
+    finally:
+        LIBRARY.thalweg_job_free(job)
+
+
+def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (), valleys: Iterable[Source] = (),
+          breaklines: Iterable[Source] = (), boundary: Iterable[Source] = (), holes: Iterable[Source] = (), lakes: Iterable[Source] = (),
+          crs: Optional[str] = None, progress: Optional[Progress] = None, **options: Any) -> Tin:
+    """Builds a TIN.
+
+    points: an array (n, 3) of x, y, z, a source "PATH" or "PATH|layername=NAME", or a list of sources. Vertex i
+    of the TIN is the i-th distinct point that is used.
+    ridges, valleys, breaklines: sources, or arrays (n, 3) with heights or (n, 2) without; boundary, holes,
+    lakes: the same, each array one closed ring. crs: of the coordinates, where sources do not say it (option a-crs).
+    options: those of `thalweg build`, dashes as underscores: order=1, optimize="none", max_error=0.5.
+    progress: called with phase and fraction; cancels if it returns True; what it raises is raised here.
+
+    Raises: ThalwegError, whose `code` is "cancelled", "usage", "not-found", ...
+    """
+
+    def fill(job: int) -> None:
         if _is_path(points):
             call("job_add_source", job, os.fsencode(points))
         elif isinstance(points, (list, tuple)) and all(_is_path(source) for source in points):
@@ -147,14 +165,15 @@ def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (
                 else:
                     _add_line(job, kind, line)
         _set_options(job, {"a-crs": crs, **options})
-        call("job_set_progress", job, callback, None)
-        tin = ctypes.c_void_p()
-        try:
-            call("job_build", job, ctypes.byref(tin))
-        except Exception:
-            if raised:
-                raise raised[0] from None
-            raise
-        return Tin(tin.value)
-    finally:
-        LIBRARY.thalweg_job_free(job)
+
+    return _run(fill, lambda job, tin: call("job_build", job, tin), progress)
+
+
+def optimize(tin: Path, *, progress: Optional[Progress] = None, **options: Any) -> Tin:
+    """Optimises a TIN that exists, a file; its vertices, heights, outline and constraint edges stay.
+
+    options: those of `thalweg optimize`, dashes as underscores: order=1, optimize="edge-length".
+    progress, and what is raised: as for `build`.
+    """
+    return _run(lambda job: _set_options(job, options),
+                lambda job, result: call("job_optimize", job, os.fsencode(tin), result), progress)
