@@ -16,6 +16,7 @@
 namespace thalweg {
 
 struct Geoid::Model {
+  explicit Model(const std::string& name) : geoid(name) {}
   GeographicLib::Geoid geoid;
 };
 
@@ -37,7 +38,7 @@ Geoid::Geoid(const std::string& model) {
                     " (Debian's geographiclib-tools), or name its folder in GEOGRAPHICLIB_GEOID_PATH");
   }
   try {
-    model_.reset(new Model{GeographicLib::Geoid(model)});
+    model_ = std::make_unique<Model>(model);
   } catch (const std::exception& error) {
     throw Error(ErrorCode::BadFormat, file + ": " + error.what() + "; install the model again");
   }
