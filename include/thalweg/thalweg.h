@@ -94,8 +94,8 @@ void thalweg_job_cancel(thalweg_job* job);
 /* Builds; the same job may build again. *tin is set only if THALWEG_OK is returned. */
 thalweg_status thalweg_job_build(thalweg_job* job, thalweg_tin** tin);
 
-/* Since version 2. Reads a TIN file and optimises it as `thalweg optimize` does: vertices, heights, outline and
- * constraint edges stay. The job has no points and lines; its options are those of `thalweg optimize`. */
+/* Since version 2. Reads a TIN file and optimises it as `thalweg optimize` does: vertices, heights, outline
+ * and constraint edges stay. The job has no points and lines; its options are those of `thalweg optimize`. */
 thalweg_status thalweg_job_optimize(thalweg_job* job, const char* path, thalweg_tin** tin);
 
 void thalweg_tin_free(thalweg_tin* tin);
