@@ -148,42 +148,53 @@ void write_report(const std::string& path, const std::string& target, const Drai
   if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
 }
 
+/// Refuses what would be refused after long work.
+void check_outputs(const DrainConfig& config, Overwrite mode) {
+  check_features_path(config.output);
+  PendingOutputs().add(config.output, mode);
+  if (config.conditioned_path.empty()) return;
+  check_write_options(config.conditioned_path, {});
+  PendingOutputs().add(config.conditioned_path, mode);
+}
+
+void check_tin(const Tin& tin, const std::string& path) {
+  if (const auto violations = validate(tin); !violations.empty()) {
+    throw Error(ErrorCode::InvalidTin,
+                fmt::format("{} breaks law {}: {}; `thalweg info` lists all violations", path,
+                            violations.front().code, violations.front().what));
+  }
+  if (tin.triangle_count() == 0) {
+    throw Error(ErrorCode::EmptyInput, path + ": has no triangle, so no water runs; give a TIN with some");
+  }
+}
+
+/// Changes heights if that is asked for. The triangles stay, so what finds them goes on to hold.
+std::vector<HeightChange> condition(LoadedTin& loaded, std::span<const VertexId> outlets,
+                                    const DrainConfig& config, DrainReport& report, Progress& progress) {
+  if (config.condition.empty()) return {};
+  ConditionedTin conditioned = condition_tin(loaded, outlets, config, progress);
+  loaded.tin = std::move(conditioned.tin);
+  report.conditioned = conditioned.report;
+  return std::move(conditioned.changes);
+}
+
 }  // namespace
 
 DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
-  check_features_path(config.output);
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
-  PendingOutputs().add(config.output, mode);
+  check_outputs(config, mode);
   PendingOutputs outputs;
   const bool to_file = !config.report_path.empty() && config.report_path != "-";
   const std::string report_path = to_file ? outputs.add(config.report_path, mode) : std::string();
-  if (!config.conditioned_path.empty()) {
-    check_write_options(config.conditioned_path, {});
-    PendingOutputs().add(config.conditioned_path, mode);
-  }
   DrainReport report;
   report.input = config.input;
 
   progress.start_phase("read");
   LoadedTin loaded = load_tin(config.input, progress);
-  if (const auto violations = validate(loaded.tin); !violations.empty()) {
-    throw Error(ErrorCode::InvalidTin,
-                fmt::format("{} breaks law {}: {}; `thalweg info` lists all violations", config.input,
-                            violations.front().code, violations.front().what));
-  }
-  if (loaded.tin.triangle_count() == 0) {
-    throw Error(ErrorCode::EmptyInput,
-                config.input + ": has no triangle, so no water runs; give a TIN with some");
-  }
+  check_tin(loaded.tin, config.input);
   const TriangleGrid grid(loaded.tin);
   const std::vector<VertexId> outlets = place_outlets(loaded, grid, config, report, progress);
-  std::vector<HeightChange> changes;
-  if (!config.condition.empty()) {
-    ConditionedTin conditioned = condition_tin(loaded, outlets, config, progress);
-    loaded.tin = std::move(conditioned.tin);  // the same triangles: `grid` goes on to hold
-    changes = std::move(conditioned.changes);
-    report.conditioned = conditioned.report;
-  }
+  const std::vector<HeightChange> changes = condition(loaded, outlets, config, report, progress);
   const SurfaceFlow flow(loaded.tin, outlets, progress);
   const MetricScale scale = loaded.plane.scale();
   const PitTable table = tabulate_pits(flow, scale, progress);

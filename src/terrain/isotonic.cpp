@@ -130,7 +130,7 @@ class Regression {
     while (!blocks_.empty()) {
       Block block = std::move(blocks_.back());
       blocks_.pop_back();
-      norm_ == ChangeNorm::Squares ? split_at_mean(std::move(block)) : split_range(std::move(block));
+      norm_ == ChangeNorm::Squares ? split_at_mean(std::move(block)) : split_range(block);
     }
     return std::move(result_);
   }
@@ -157,7 +157,7 @@ class Regression {
     blocks_.push_back(std::move(lower));
   }
 
-  void split_range(Block block) {
+  void split_range(const Block& block) {
     if (block.members.empty()) return;
     if (block.low == block.high) {
       for (const std::uint32_t v : block.members) result_[v] = sorted_[block.low];
