@@ -91,7 +91,8 @@ void drape(const Survey& survey, const MergedVertices& merged, const GroundOptio
   }
   Heights base_heights = resolve_heights(survey, base, options, progress);
   const std::vector<ConstraintEdge> edges = constraint_edges(survey, base);
-  const Tin tin = triangulate(std::move(base.vertices.xy), std::move(base_heights.z), edges, progress);
+  const Tin tin =
+      triangulate(std::move(base.vertices.xy), std::move(base_heights.z), edges, progress, options.engine);
   const SurfaceLocator surface(tin);
   progress.start_phase("heights of lines without");
   TriangleId near;
@@ -272,7 +273,7 @@ Ground build_ground(const Survey& survey, const GroundOptions& options, Progress
     edge.a = VertexId{plan.now_of[edge.a.index()]};
     edge.b = VertexId{plan.now_of[edge.b.index()]};
   }
-  ground.tin = triangulate(std::move(plan.xy), std::move(plan.z), edges, progress);
+  ground.tin = triangulate(std::move(plan.xy), std::move(plan.z), edges, progress, options.engine);
   if (has_lakes(survey)) level(survey, drawing, plan.now_of, heights, ground, progress);
   if (ground.mode == GroundMode::Polygon) {
     plan.xy.assign(ground.tin.points().begin(), ground.tin.points().end());

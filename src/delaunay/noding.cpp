@@ -38,15 +38,18 @@
 
 #include "box_tree.hpp"
 
+#include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
 #include <base/parallel.hpp>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -57,6 +60,11 @@ namespace {
 constexpr int kRounds = 40;
 constexpr int kPixelBits = 44;  // a pixel is 2^-44 of the power of two above the largest coordinate
 constexpr std::size_t kBlock = 1 << 11;
+// Each crossing may become a vertex: so many would need more than 20 GiB. As many lines through one place are
+// given up within seconds, and a GiB.
+constexpr std::size_t kMostCrossings = std::size_t{1} << 26U;
+// A link that runs along others stops at their ends; each crossing makes two stops.
+constexpr std::size_t kMostStops = 2 * kMostCrossings;
 constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
 
 // A link whose way leads through the cell of a vertex.
@@ -78,6 +86,23 @@ std::vector<Found> gather(std::vector<std::vector<Found>>& parts) {
   }
   return all;
 }
+
+// Counts what all threads find together, and gives up where it is too much.
+class Tally {
+ public:
+  Tally(std::size_t most, const char* what) : most_(most), what_(what) {}
+  void add(std::size_t found) {
+    if (count_.fetch_add(found, std::memory_order_relaxed) + found <= most_) return;
+    throw Error(ErrorCode::SizeLimit, std::string("the lines ") + what_ + " more than " +
+                                          std::to_string(most_) +
+                                          " times; thin them out, or read them in parts (--bbox)");
+  }
+
+ private:
+  std::size_t most_;
+  const char* what_;
+  std::atomic<std::size_t> count_ = 0;
+};
 
 class Noder {
  public:
@@ -152,15 +177,18 @@ class Noder {
 
   [[nodiscard]] std::vector<LinkPair> find_crossings(const BoxTree& tree) const {
     std::vector<std::vector<LinkPair>> found((tree.size() + kBlock - 1) / kBlock);
+    Tally tally(kMostCrossings, "cross each other");
     for_each_block(tree.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t one = tree.item(i);
+        const std::size_t before = found[begin / kBlock].size();
         tree.visit(tree.box(i), [&](std::uint32_t other) {
           if (other <= one || is_end(one, ends_[other][0]) || is_end(one, ends_[other][1])) return;
           const auto& [a, b] = links_[one];
           const auto& [c, d] = links_[other];
           if (cross_properly(a, b, c, d)) found[begin / kBlock].push_back({one, other});
         });
+        tally.add(found[begin / kBlock].size() - before);
       }
     });
     std::vector<LinkPair> crossings = gather(found);
@@ -173,8 +201,10 @@ class Noder {
   [[nodiscard]] std::vector<Stop> find_stops(const BoxTree& tree, std::size_t first, double grid) const {
     const std::size_t count = xy_.size() - first;
     std::vector<std::vector<Stop>> found((count + kBlock - 1) / kBlock);
+    Tally tally(kMostStops, "run along each other or through vertices");
     for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t before = found[begin / kBlock].size();
         const auto vertex = static_cast<std::uint32_t>(first + i);
         const Cell cell(xy_[vertex], grid);
         tree.visit(box_around(cell.centre, std::max(cell.half_x, cell.half_y)), [&](std::uint32_t link) {
@@ -184,6 +214,7 @@ class Noder {
             found[begin / kBlock].push_back({link, vertex, on_link});
           }
         });
+        tally.add(found[begin / kBlock].size() - before);
       }
     });
     std::vector<Stop> stops = gather(found);

@@ -46,8 +46,8 @@ struct Noding {
 double snapping_pixel(std::span<const Point2> positions, double least);
 
 /// Nodes segments among themselves and with all vertices. Pre: vertices are distinct and within 1e15;
-/// `least_pixel` as in `snapping_pixel`.
-/// Complexity: about (vertices + segments) log segments, and the number of pieces.
+/// `least_pixel` as in `snapping_pixel`. Throws: Error{SizeLimit} where lines cross or overlap 2^26 times;
+/// {Cancelled}. Complexity: about (vertices + segments) log segments, and the number of pieces.
 Noding node_segments(std::span<const Point2> vertices, std::span<const SegmentEnds> segments,
                      Progress& progress, double least_pixel = 0);
 

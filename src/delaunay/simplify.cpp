@@ -129,7 +129,7 @@ void Simplifier::start() {
     outline.emplace_back(renumbered(a), renumbered(b));
     constraints.push_back({renumbered(a), renumbered(b), EdgeKind::Boundary});
   }
-  Tin tin = triangulate(std::move(points), std::move(heights), constraints, progress_);
+  Tin tin = triangulate(std::move(points), std::move(heights), constraints, progress_, options_.engine);
   tin = keep_triangles(tin, inside_outline(tin, outline));
   progress_.start_phase("simplify");
   growing_.start(tin, ids);

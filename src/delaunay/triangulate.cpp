@@ -76,6 +76,10 @@ std::vector<detail::VertexPair> pairs_of(std::span<const ConstraintEdge> constra
 
 }  // namespace
 
+std::string_view engine_name(TriangulationEngine engine) {
+  return engine == TriangulationEngine::Flat ? "flat" : "cgal";
+}
+
 Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
                 std::span<const ConstraintEdge> constraints, Progress& progress, TriangulationEngine engine) {
   if (points.size() < 3) {

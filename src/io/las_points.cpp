@@ -107,7 +107,7 @@ class LasPoints : public SourceReader {
     if (!run.options.z_field.empty()) run.z_field.refusals.push_back(name() + " is LAS and has no fields");
     run.las_filter.taken = true;
     if (!note_.empty()) run.note(note_);
-    expect_points(run.result.survey.points, static_cast<double>(std::min(count_, file_size_ / record_)));
+    expect_points(run, static_cast<double>(std::min(count_, file_size_ / record_)));
     PointCollector points(run, transform);
     constexpr std::uint64_t kBlock = 1U << 15U;
     std::uint64_t withheld = 0, left_out = 0;

@@ -26,7 +26,7 @@ class MemoryPoints : public SourceReader {
       throw Error(ErrorCode::Usage, name() + ": there are " + std::to_string(source_.xy.size()) +
                                         " positions and " + std::to_string(source_.z.size()) + " heights");
     }
-    expect_points(run.result.survey.points, static_cast<double>(source_.xy.size()));
+    expect_points(run, static_cast<double>(source_.xy.size()));
     PointCollector points(run, transform);
     for (std::size_t i = 0; i < source_.xy.size(); ++i) {
       const Point2 p = source_.xy[i];

@@ -29,7 +29,7 @@ class MeshPoints : public SourceReader {
   void read(ReadContext& run, PlaneTransform& transform) override {
     if (!run.options.where.empty()) run.where.refusals.push_back(name() + " is a mesh and has no attributes");
     if (!run.options.z_field.empty()) run.z_field.refusals.push_back(name() + " is a mesh and has no fields");
-    expect_points(run.result.survey.points, static_cast<double>(mesh_.points.size()));
+    expect_points(run, static_cast<double>(mesh_.points.size()));
     PointCollector points(run, transform);
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
       const Point2 p = mesh_.points[i];

@@ -24,7 +24,15 @@ void check_room(const SurveyPoints& points, std::size_t more) {
                                         " points; read them in parts (--bbox) or thin them out");
 }
 
-void expect_points(SurveyPoints& points, double more) {
+void expect_points(ReadContext& run, double more) {
+  SurveyPoints& points = run.result.survey.points;
+  const ReadOptions& options = run.options;
+  const bool all_stay =
+      !options.bbox && options.where.empty() && options.classes.empty() && options.returns == LasReturns::All;
+  // Far below what a size can hold: a header may say anything.
+  if (options.admit && all_stay) {
+    options.admit(points.xy.size() + static_cast<std::size_t>(std::min(more, 1e15)));
+  }
   // A guess shall not fail for want of memory that is not needed in the end.
   constexpr double kMostExpected = 1U << 26U;
   const std::size_t room = points.xy.size() + static_cast<std::size_t>(std::min(more, kMostExpected));
@@ -58,6 +66,7 @@ void PointCollector::flush() {
     points.z.insert(points.z.end(), z.begin(), z.end());
   }
   pending_ = 0;
+  if (run_.options.admit) run_.options.admit(points.xy.size());
 }
 
 }  // namespace thalweg

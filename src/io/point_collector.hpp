@@ -38,8 +38,8 @@ class PointCollector {
   std::size_t pending_ = 0;
 };
 
-/// Reserves room for about so many points more.
-void expect_points(SurveyPoints& points, double more);
+/// Asks whether so many points more are admitted, and reserves room for them. Throws: what `admit` throws.
+void expect_points(ReadContext& run, double more);
 
 /// Throws: Error{SizeLimit} if the survey would get more points than a TIN can have with `more` points.
 void check_room(const SurveyPoints& points, std::size_t more);

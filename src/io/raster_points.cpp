@@ -82,8 +82,8 @@ class RasterPoints : public SourceReader {
     scale_ = band_->GetScale();
     offset_ = band_->GetOffset();
     choose_window(run, transform);
-    expect_points(run.result.survey.points,
-                  static_cast<double>(frame_.columns) * static_cast<double>(frame_.rows));
+    if (!has_mask_)
+      expect_points(run, static_cast<double>(frame_.columns) * static_cast<double>(frame_.rows));
     RegionFinder regions(frame_, run.options.nodata);
     read_strips(run, transform, session, regions);
     RegionFinder::Result found = regions.finish();

@@ -72,8 +72,7 @@ class TextPoints : public SourceReader {
     PointCollector points(run, transform);
     rows_to_skip_ = format.header_rows;
     const auto rows = static_cast<double>(std::count(block.begin(), block.end(), '\n'));
-    expect_points(run.result.survey.points,
-                  std::max(rows, rows * blocks_.size() / static_cast<double>(block.size())));
+    expect_points(run, std::max(rows, rows * blocks_.size() / static_cast<double>(block.size())));
     while (!block.empty()) {
       read_block(block, parser, points);
       run.advance(blocks_.fraction());

@@ -1,6 +1,6 @@
 // The main job.
 //
-// 1. Reserve the outputs, read the sources in one CRS.
+// 1. Reserve the outputs, read the sources in one CRS; refuse what the memory cannot hold.
 // 2. A geographic survey: points exactly on a line become its vertices, pieces that bend are densified, and
 //    everything is projected to the metric plane. What is written back are the coordinates that came in.
 // 3. Node and triangulate: the ground, with ids along a curve until the outputs are written.
@@ -10,6 +10,7 @@
 //    vertices too, so it is a triangle of the new ground.)
 // 5. If asked for, leave out the vertices that few others stand for (reduce_terrain.cpp).
 // 6. Optimise and write (surface.cpp).
+#include "pipeline/memory_estimate.hpp"
 #include "pipeline/plane_survey.hpp"
 #include "pipeline/reduce_terrain.hpp"
 #include "pipeline/surface.hpp"
@@ -131,10 +132,15 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   BuiltTin built;
   Report& report = built.report;
   report.command = "build";
+  report.engine = engine_name(config.ground.engine);
   RunOutputs outputs(output);
 
   progress.start_phase("read");
-  auto [read, plane, survey] = read_into_plane(config.points, config.lines, config.read, progress, memory);
+  const MemoryEstimate estimate(config.memory_limit_bytes, config.labelling.order);
+  ReadOptions read_options = config.read;
+  read_options.admit = [&estimate](std::size_t points) { estimate.require(points); };
+  auto [read, plane, survey] = read_into_plane(config.points, config.lines, read_options, progress, memory);
+  estimate.require(survey.survey.points.xy.size() + read.breakline_vertices);
   report.notes = read.notes;
   report.input.vertices_inserted_on_lines = survey.vertices_inserted_on_lines;
   note_assumptions(read.crs, report);
@@ -166,12 +172,12 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   report.tin.dropped_rim_triangles =
       static_cast<std::size_t>(std::count(terrain.keep.begin(), terrain.keep.end(), false));
   const std::size_t vertices = terrain.ground.vertex_count();
-  terrain = without_lonely_vertices(std::move(terrain), progress);
+  terrain = without_lonely_vertices(std::move(terrain), config.ground.engine, progress);
   report.tin.vertices_left_out = vertices - terrain.ground.vertex_count();
   report.timings_s.triangulate = watch.lap();
   if (config.max_error_m || config.max_points) {
-    terrain =
-        simplified(std::move(terrain), {config.max_error_m, config.max_points}, plane, report, progress);
+    terrain = simplified(std::move(terrain), {config.max_error_m, config.max_points, config.ground.engine},
+                         plane, report, progress);
     report.timings_s.simplify = watch.lap();
   }
 

@@ -22,6 +22,18 @@ void add_ground_options(CLI::App& command, BuildArguments& a) {
       ->check(CLI::NonNegativeNumber);
   command.add_option("--max-edge", a.max_edge_m, "drop rim triangles with a longer rim edge, metres")
       ->check(CLI::PositiveNumber);
+  command
+      .add_option("--engine", a.config.ground.engine,
+                  "who triangulates: our own, or CGAL as a check; the triangulation is the same")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, TriangulationEngine>{
+          {"flat", TriangulationEngine::Flat}, {"cgal", TriangulationEngine::Cgal}}))
+      ->default_str("flat");
+  command
+      .add_option("--memory-limit", a.memory_limit_bytes,
+                  "refuse what needs more memory, as 4G or 500M, by an estimate before the work starts")
+      ->transform(CLI::AsSizeValue(false))
+      ->type_name("SIZE")
+      ->default_str("what the machine has");
 }
 
 void add_simplify_options(CLI::App& command, BuildArguments& a) {
@@ -50,6 +62,7 @@ BuildConfig config_of(const CLI::App& command, BuildArguments arguments) {
   apply_sources(arguments.sources, config.read, config.lines);
   if (command.count("--max-edge") > 0) config.max_edge_m = arguments.max_edge_m;
   if (command.count("--max-error") > 0) config.max_error_m = arguments.max_error_m;
+  if (command.count("--memory-limit") > 0) config.memory_limit_bytes = arguments.memory_limit_bytes;
   if (command.count("--max-points") > 0) config.max_points = arguments.max_points;
   config.labelling = parse_labelling(arguments.labelling);
   return config;

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace thalweg::cli {
 
@@ -21,6 +22,7 @@ struct BuildArguments {
   double max_edge_m = 0;
   double max_error_m = 0;
   std::size_t max_points = 0;
+  std::uint64_t memory_limit_bytes = 0;
 };
 
 /// Adds the options that say what is built, not where it goes: sources of lines and areas, how they are read,

@@ -95,6 +95,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   BuiltTin built;
   Report& report = built.report;
   report.command = "optimize";
+  report.engine = engine_name(TriangulationEngine::Flat);
   RunOutputs outputs(config.output);
 
   progress.start_phase("read");

@@ -62,7 +62,7 @@ std::string_view name_of(SimplifyStop stop) {
 
 }  // namespace
 
-Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
+Terrain without_lonely_vertices(Terrain terrain, TriangulationEngine engine, Progress& progress) {
   const Tin& ground = terrain.ground;
   std::vector<bool> used(ground.vertex_count(), false);
   for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
@@ -98,7 +98,7 @@ Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
     result.keep.assign(result.ground.triangle_count(), true);
     return result;
   }
-  result.ground = triangulate(std::move(points), std::move(heights), constraints, progress);
+  result.ground = triangulate(std::move(points), std::move(heights), constraints, progress, engine);
   result.keep.assign(result.ground.triangle_count(), false);
   std::sort(kept.begin(), kept.end());
   std::size_t found = 0;
@@ -117,7 +117,8 @@ Terrain without_lonely_vertices(Terrain terrain, Progress& progress) {
 Terrain simplified(Terrain terrain, const SimplifyLimits& limits, const Plane& plane, Report& report,
                    Progress& progress) {
   const Tin dense = keep_triangles(std::move(terrain.ground), terrain.keep);
-  SimplifyOptions options{.max_vertices = limits.max_points, .written = terrain.continuous};
+  SimplifyOptions options{
+      .max_vertices = limits.max_points, .written = terrain.continuous, .engine = limits.engine};
   const double unit = plane.vertical_metres_per_unit();
   if (limits.max_error_m) options.max_error = *limits.max_error_m / unit;
   Simplified simple = simplify(dense, options, progress);

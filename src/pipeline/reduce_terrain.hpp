@@ -4,17 +4,20 @@
 
 #include "pipeline/surface.hpp"
 
+#include <thalweg/delaunay/triangulate.hpp>
+
 #include <cstddef>
 #include <optional>
 
 namespace thalweg {
 
 /// The terrain of the vertices that are in a kept triangle; ids close up in order.
-Terrain without_lonely_vertices(Terrain terrain, Progress& progress);
+Terrain without_lonely_vertices(Terrain terrain, TriangulationEngine engine, Progress& progress);
 
 struct SimplifyLimits {
   std::optional<double> max_error_m;
   std::optional<std::size_t> max_points;
+  TriangulationEngine engine = TriangulationEngine::Flat;
 };
 
 /// The terrain with as few vertices as the limits allow, and what was left out; fills the report's

@@ -148,7 +148,7 @@ std::string version() {
 std::string to_json(const Report& report) {
   const PhaseSeconds& s = report.timings_s;
   const Json json = {
-      {"thalweg", {{"version", version()}, {"command", report.command}}},
+      {"thalweg", {{"version", version()}, {"command", report.command}, {"engine", report.engine}}},
       {"digest", report.digest},
       {"input", input_json(report.input)},
       {"conflicts", conflicts_json(report.conflicts)},
@@ -285,6 +285,7 @@ std::string to_text(const Report& r) {
                    r.pits_result.lake);
   }
   const PhaseSeconds& s = r.timings_s;
+  if (!r.engine.empty() && r.engine != "flat") text += fmt::format("Triangulated by {}\n", r.engine);
   text += "Seconds\n";
   fmt::format_to(out,
                  "  read {:.2f}  triangulate {:.2f}  simplify {:.2f}  orders {:.2f}  optimize {:.2f}  check "

@@ -85,9 +85,11 @@ int turn(Point2 a, Point2 b, Point2 c) {
   const Extended determinant = left - right;
   const Extended bound = 8 * kUnit * (std::abs(left) + std::abs(right));
   if (bound > kNormal && std::abs(determinant) > bound) return determinant > 0 ? 1 : -1;
+  // No product of two doubles leaves the range of Extended: a zero is exact, and so is the other's sign.
+  if (left == 0 || right == 0) return determinant > 0 ? 1 : determinant < 0 ? -1 : 0;
   double ax = 0, ay = 0, bx = 0, by = 0;
   if (exact_difference(a.x, c.x, ax) && exact_difference(a.y, c.y, ay) && exact_difference(b.x, c.x, bx) &&
-      exact_difference(b.y, c.y, by) && (bound > kNormal || left == 0 || right == 0)) {
+      exact_difference(b.y, c.y, by) && bound > kNormal) {
     return compare_products(ax, by, ay, bx);
   }
   return turn_by_integers(a, b, c);

@@ -180,6 +180,14 @@ int main(int argc, char** argv) {
     return cli::fail("out-of-memory", "the machine has not enough memory for this input; nothing was written",
                      cli::kFailed);
   } catch (const std::exception& error) {
+    // TBB's way to say that the system gives no more threads.
+    if (std::string_view(error.what()).find("pthread_create") != std::string_view::npos) {
+      return cli::fail(
+          "out-of-memory",
+          "the system gives no more threads: too little memory (ulimit -v) or too many processes "
+          "(ulimit -u); fewer threads: --threads 1; nothing was written",
+          cli::kFailed);
+    }
     return cli::fail("internal", error.what(), cli::kFailed);
   }
 }

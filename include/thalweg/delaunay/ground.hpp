@@ -8,6 +8,7 @@
 /// and Last aside; (6) a height that is interpolated never leaves the range of the heights it comes from.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/mesh/ground_mode.hpp>
 #include <thalweg/mesh/survey.hpp>
 #include <thalweg/mesh/tin.hpp>
@@ -42,6 +43,7 @@ struct GroundOptions {
   /// that is more than the spacing of doubles in the plane (they were given in another frame).
   double resolution = 0;
   Numbering numbering = Numbering::InOrder;
+  TriangulationEngine engine = TriangulationEngine::Flat;
 };
 
 /// Where a vertex of the ground comes from: what has its very position, first in the order of ids.
@@ -77,8 +79,8 @@ struct Ground {
 /// height: the lowest that its rings have, else the lowest of the vertices on its shore. Throws:
 /// Error{BadCoordinate} not finite or beyond 1e15; {TooFewPoints}, {Collinear} no triangle exists;
 /// {CrossingLines} under CrossingRule::Error; {OutsideHull} a soft vertex outside of that ground;
-/// {WrongGeometry} an open ring; {TooClose} vertices too close for double arithmetic; {Cancelled}.
-/// Complexity: about n log n on real data; a crossing costs a vertex.
+/// {WrongGeometry} an open ring; {TooClose} vertices too close for double arithmetic; {SizeLimit} lines cross
+/// or overlap 2^26 times; {Cancelled}. Complexity: about n log n on real data; a crossing costs a vertex.
 Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress);
 
 }  // namespace thalweg

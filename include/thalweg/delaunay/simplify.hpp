@@ -11,6 +11,7 @@
 /// exact arithmetic; (4) the vertices depend on positions and heights, not on ids or threads.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/mesh/tin.hpp>
 
 #include <cstddef>
@@ -28,6 +29,7 @@ struct SimplifyOptions {
   std::optional<std::size_t> max_vertices;
   /// Coordinates in which triangles must not be flat or turned over either, one a vertex; empty: the plane's.
   std::span<const Point2> written;
+  TriangulationEngine engine = TriangulationEngine::Flat;  ///< of the vertices it starts with
 };
 
 /// Which limit ended the work.

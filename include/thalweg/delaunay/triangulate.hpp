@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace thalweg {
@@ -16,6 +17,9 @@ enum class TriangulationEngine : std::uint8_t {
   Flat,  ///< our own: flat arrays, all threads
   Cgal   ///< CGAL's Constrained_Delaunay_triangulation_2, as a check
 };
+
+/// "flat" or "cgal".
+std::string_view engine_name(TriangulationEngine engine);
 
 /// Triangulates the convex hull of the points such that every constraint edge is an edge, and every other
 /// edge is locally Delaunay under the tie rule of `in_circle_perturbed`: there is exactly one such

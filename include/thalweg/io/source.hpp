@@ -11,6 +11,7 @@
 #include <thalweg/mesh/survey.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,6 +92,9 @@ struct ReadOptions {
   HeightsAbove heights_above = HeightsAbove::Ellipsoid;  ///< before the geoid model comes to them
   NodataMode nodata = NodataMode::BridgeHoles;
   HeightRule heights = HeightRule::Required;
+  /// Told now and then how many points there are, and before a source is read how many there will be (by its
+  /// header, or the lengths of its first rows; not where a filter may leave few). Throws to refuse.
+  std::function<void(std::size_t)> admit;
 };
 
 /// The survey, and what happened on the way to it.

@@ -61,6 +61,7 @@ struct BuildConfig {
   /// limit reached stops. No diagonal is taken that would break the bound.
   std::optional<double> max_error_m;
   std::optional<std::size_t> max_points;
+  std::optional<std::size_t> memory_limit_bytes;  ///< refuse what needs more, by estimate
   LabellingConfig labelling;
   OutputConfig output;
 };
@@ -77,7 +78,7 @@ struct BuiltTin {
 };
 
 /// Runs the main job on the sources and on what is in memory, and writes nothing: `config.output` is not
-/// looked at. Throws: Error with the code that fits.
+/// looked at. Throws: Error with the code that fits; {OutOfMemory} before the work starts, by an estimate.
 BuiltTin build_tin(const BuildConfig& config, const MemorySource& memory, Progress& progress);
 
 /// Writes the TIN to `output.path`, the very bytes that `build` writes; of `output` its path, format,

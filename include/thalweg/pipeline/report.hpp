@@ -123,6 +123,7 @@ struct ReportSimplification {
 
 struct Report {
   std::string command;
+  std::string engine;  ///< that triangulated; see `engine_name`
   std::string digest;  ///< see `digest_of`
   ReportInput input;
   std::vector<Conflict> conflicts;

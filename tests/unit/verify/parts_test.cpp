@@ -13,6 +13,14 @@
 namespace thalweg::verify {
 namespace {
 
+TEST(Exact, TheSmallestNumbersTurnToo) {
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(turn({0, 0}, {least, 0}, {least, least}), 1);
+  EXPECT_EQ(turn({0, 0}, {least, least}, {least, 0}), -1);
+  EXPECT_EQ(turn({0, 0}, {least, least}, {2 * least, 2 * least}), 0);
+  EXPECT_EQ(turn({0, 0}, {3 * least, least}, {2 * least, 5 * least}), 1);
+}
+
 TEST(Exact, NearlyCollinearPointsAreToldApart) {
   const double ulp = std::numeric_limits<double>::epsilon();
   EXPECT_EQ(turn({0, 0}, {12, 12}, {24, 24}), 0);

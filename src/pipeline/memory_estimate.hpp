@@ -1,0 +1,26 @@
+#pragma once
+
+/// Refuses, before the work starts, what the memory cannot hold.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace thalweg {
+
+/// What a run of the main job needs is estimated from its vertices; it may take more where many lines
+/// cross, and at orders above 2.
+class MemoryEstimate {
+ public:
+  /// Looks at what memory there is now. A limit is in bytes, an order as in LabellingConfig.
+  MemoryEstimate(std::optional<std::size_t> limit, unsigned order);
+  /// Throws: Error{OutOfMemory} if the limit or the machine cannot hold a run of so many vertices.
+  void require(std::size_t vertices) const;
+
+ private:
+  std::size_t room_ = 0;
+  std::string limited_by_;
+  std::size_t bytes_a_vertex_ = 0;
+};
+
+}  // namespace thalweg
