@@ -115,7 +115,7 @@ std::vector<PairCost<Criteria>> pairs_of(const Labelling<Criteria>& problem) {
 
 template <std::size_t Criteria>
 Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Criteria>> pairs,
-                std::span<const Cut> cuts) {
+                std::span<const Cut> cuts, std::uint32_t width_limit) {
   const auto is_long = [](const Cut& cut) { return cut.size() > std::tuple_size_v<Clause>; };
   std::size_t count = problem.size();
   std::vector<Cut> short_cuts;
@@ -127,8 +127,10 @@ Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Cri
   if (count > problem.size()) {
     const std::vector<Clause> clauses = split_cuts(short_cuts, {}, 0);
     const TermSum<Criteria> sum{problem.size(), problem.unary, pairs, clauses, &problem.tables};
-    const auto unlimited = static_cast<std::uint32_t>(problem.size());
-    numbers = tree_numbers(find_elimination_order(problem.size(), interactions(sum), unlimited));
+    const EliminationOrder order = find_elimination_order(problem.size(), interactions(sum), width_limit);
+    numbers.resize(problem.size());
+    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
+    if (order.complete) numbers = tree_numbers(order);
   }
   return {split_cuts(cuts, numbers, static_cast<std::uint32_t>(problem.size())), count};
 }
@@ -142,7 +144,7 @@ std::optional<ExactLabels> solve_exactly(const Labelling<Criteria>& problem, std
   std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
   ExactLabels exact;
   while (true) {
-    Clauses clauses = shorten<Criteria>(problem, pairs, cuts);
+    Clauses clauses = shorten<Criteria>(problem, pairs, cuts, width_limit);
     const TermSum<Criteria> sum{clauses.variable_count, problem.unary, pairs, clauses.clauses,
                                 &problem.tables};
     EliminationOrder order = find_elimination_order(clauses.variable_count, interactions(sum), width_limit);
@@ -175,9 +177,12 @@ template Cost<4> cost_of(const Labelling<4>&, std::span<const Label>);
 template std::vector<PairCost<1>> pairs_of(const Labelling<1>&);
 template std::vector<PairCost<2>> pairs_of(const Labelling<2>&);
 template std::vector<PairCost<4>> pairs_of(const Labelling<4>&);
-template Clauses shorten(const Labelling<1>&, std::span<const PairCost<1>>, std::span<const Cut>);
-template Clauses shorten(const Labelling<2>&, std::span<const PairCost<2>>, std::span<const Cut>);
-template Clauses shorten(const Labelling<4>&, std::span<const PairCost<4>>, std::span<const Cut>);
+template Clauses shorten(const Labelling<1>&, std::span<const PairCost<1>>, std::span<const Cut>,
+                         std::uint32_t);
+template Clauses shorten(const Labelling<2>&, std::span<const PairCost<2>>, std::span<const Cut>,
+                         std::uint32_t);
+template Clauses shorten(const Labelling<4>&, std::span<const PairCost<4>>, std::span<const Cut>,
+                         std::uint32_t);
 template std::optional<ExactLabels> solve_exactly(const Labelling<1>&, std::uint32_t, const Progress&);
 template std::optional<ExactLabels> solve_exactly(const Labelling<2>&, std::uint32_t, const Progress&);
 template std::optional<ExactLabels> solve_exactly(const Labelling<4>&, std::uint32_t, const Progress&);

@@ -35,7 +35,8 @@ Cost<Criteria> cost_of(const Labelling<Criteria>& problem, std::span<const Label
 template <std::size_t Criteria>
 std::vector<PairCost<Criteria>> pairs_of(const Labelling<Criteria>& problem);
 
-/// Cuts as short clauses, whose auxiliary variables follow those of the problem.
+/// Cuts as short clauses, whose auxiliary variables follow those of the problem. Where the terms alone are
+/// wider than the limit, no order along long cuts is looked for.
 struct Clauses {
   std::vector<Clause> clauses;
   std::size_t variable_count = 0;  ///< auxiliary ones included
@@ -43,7 +44,7 @@ struct Clauses {
 
 template <std::size_t Criteria>
 Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Criteria>> pairs,
-                std::span<const Cut> cuts);
+                std::span<const Cut> cuts, std::uint32_t width_limit);
 
 struct ExactLabels {
   std::vector<Label> label;

@@ -30,7 +30,7 @@ class Relaxation {
     const std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
     pairs_ = pairs_of(problem);
     tables_ = problem.tables;
-    Clauses shortened = shorten<Criteria>(problem, pairs_, cuts);
+    Clauses shortened = shorten<Criteria>(problem, pairs_, cuts, width_limit);
     clauses_ = std::move(shortened.clauses);
     unary_ = problem.unary;
     unary_.resize(shortened.variable_count);

@@ -14,8 +14,7 @@ namespace thalweg {
 
 /// Seconds of the phases of a run.
 struct PhaseSeconds {
-  double read = 0;
-  double triangulate = 0, simplify = 0;
+  double read = 0, triangulate = 0, simplify = 0;
   double orders = 0;
   double optimize = 0;
   double check = 0;  ///< the TIN's laws, pits and figures, by plain code
@@ -122,9 +121,8 @@ struct ReportSimplification {
 };
 
 struct Report {
-  std::string command;
-  std::string engine;  ///< that triangulated; see `engine_name`
-  std::string digest;  ///< see `digest_of`
+  std::string command, engine;  ///< the engine is that which triangulated; see `engine_name`
+  std::string digest;           ///< see `digest_of`
   ReportInput input;
   std::vector<Conflict> conflicts;
   ReportCrs crs;
