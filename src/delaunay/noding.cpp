@@ -60,8 +60,7 @@ namespace {
 constexpr int kRounds = 40;
 constexpr int kPixelBits = 44;  // a pixel is 2^-44 of the power of two above the largest coordinate
 constexpr std::size_t kBlock = 1 << 11;
-// Each crossing may become a vertex: so many would need more than 20 GiB. As many lines through one place are
-// given up within seconds, and a GiB.
+// Each crossing may become a vertex: so many would need more than 20 GiB.
 constexpr std::size_t kMostCrossings = std::size_t{1} << 26U;
 // A link that runs along others stops at their ends; each crossing makes two stops.
 constexpr std::size_t kMostStops = 2 * kMostCrossings;

@@ -22,7 +22,7 @@ using ReferenceTerm = double (*)(const Face&, Scale, const Reference&);
 
 /// What meets at a vertex. The surface is strictly convex or reflex at an edge, or flat, decided exactly.
 struct Star {
-  std::uint32_t edges = 0;  ///< rim edges included
+  std::uint32_t edges = 0;                            ///< rim edges included
   bool convex = false, reflex = false, flat = false;  ///< whether it is so at some edge
   bool on_rim = false;
 };

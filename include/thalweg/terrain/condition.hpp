@@ -56,9 +56,9 @@ struct ConditionResult {
 /// too if asked for together; (2) without one, after Fill or Breach no interior pit is left but at outlets;
 /// where lakes or valleys close all ways of a breach that is asked for alone, the pit is left; (3) Fill
 /// alone is the flood: the least, over all ways to a way out, of the greatest height; (4) with Fill and
-/// Breach the sum of changes is at most that of the flood, and that of Breach alone if that leaves no pit. Throws: Error{Cancelled}.
-/// Complexity: n log n, plus for each pit the vertices that it floods or searches; a max-flow for each level
-/// at which a pool of a valley is split.
+/// Breach the sum of changes is at most that of the flood, and that of Breach alone if that leaves no pit.
+/// Throws: Error{Cancelled}. Complexity: n log n, plus for each pit the vertices that it floods or searches;
+/// a max-flow for each level at which a pool of a valley is split.
 ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outlets,
                                   const ConditionOptions& options, const Progress& progress);
 
