@@ -230,8 +230,9 @@ class Noder {
   }
 
   static std::span<const Stop> stops_of(std::uint32_t link, std::span<const Stop> stops) {
-    const auto [from, to] = std::ranges::equal_range(stops, link, {}, &Stop::link);
-    return {from, to};
+    const auto before = [](const Stop& stop, std::uint32_t at) { return stop.link < at; };
+    const auto from = std::lower_bound(stops.begin(), stops.end(), link, before);
+    return {from, std::lower_bound(from, stops.end(), link + 1, before)};
   }
 
   // Step 2. Only cells that a link meets can hold its crossings.
@@ -257,7 +258,7 @@ class Noder {
   }
 
   [[nodiscard]] bool crosses_at_vertex(const LinkPair& pair, std::span<const Stop> stops, double grid) const {
-    const auto [one, other] = pair;
+    const std::uint32_t one = pair[0], other = pair[1];
     const auto holds = [&](std::uint32_t vertex) {
       return crosses_in_cell(links_[one], links_[other], Cell(xy_[vertex], grid));
     };
