@@ -3,6 +3,7 @@
 /// Sorting by a coordinate: first into buckets, whose order is that of the coordinate, then within each.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -15,16 +16,18 @@ namespace thalweg {
 /// falls into an earlier one.
 class BucketOfCoordinate {
  public:
+  /// Where the coordinates are too close for a scale, as denormal ones are, all are in the first bucket.
   BucketOfCoordinate(double low, double high, std::size_t buckets)
-      : low_(low),
-        last_(static_cast<double>(buckets - 1)),
-        per_unit_(high > low ? last_ / (high - low) : 0) {}
+      : low_(low), last_(static_cast<double>(buckets - 1)) {
+    const double per_unit = last_ / (high - low);
+    if (std::isfinite(per_unit)) per_unit_ = per_unit;
+  }
   std::uint32_t operator()(double coordinate) const {
     return static_cast<std::uint32_t>(std::min((coordinate - low_) * per_unit_, last_));
   }
 
  private:
-  double low_, last_, per_unit_;
+  double low_, last_, per_unit_ = 0;
 };
 
 /// Numbers 0 to n - 1 by bucket, ascending in each.
