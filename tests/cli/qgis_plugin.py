@@ -16,10 +16,11 @@ import tempfile
 QGIS_PROCESS = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
 PYTHON = "/usr/bin/python3"
 
-CANCEL = """
-import os, sys, threading, time
+# How each script begins: QGIS without a window, with the plugin.
+START = """
+import os, sys
 sys.path.append('/usr/share/qgis/python/plugins')
-from qgis.core import QgsApplication, QgsProcessingContext, QgsProcessingFeedback
+from qgis.core import QgsApplication
 app = QgsApplication([], False)
 app.initQgis()
 from processing.core.Processing import Processing
@@ -28,6 +29,11 @@ sys.path.append(os.environ['QGIS_PLUGINPATH'])
 import thalweg_tin
 plugin = thalweg_tin.classFactory(None)
 plugin.initProcessing()
+"""
+
+CANCEL = START + """
+import threading, time
+from qgis.core import QgsProcessingContext, QgsProcessingFeedback
 algorithm = QgsApplication.processingRegistry().algorithmById('thalweg:build')
 feedback = QgsProcessingFeedback()
 stop = {}
@@ -45,21 +51,11 @@ print('left', sorted(os.listdir(os.path.dirname(sys.argv[2]))))
 """
 
 # Runs two algorithms as the toolbox does, which loads and styles what they made; QGIS draws the project.
-PROJECT = """
-import os, sys
-sys.path.append('/usr/share/qgis/python/plugins')
-from qgis.core import (QgsApplication, QgsMapRendererParallelJob, QgsMapSettings, QgsProcessingContext,
+PROJECT = START + """
+from qgis.core import (QgsMapRendererParallelJob, QgsMapSettings, QgsProcessingContext,
                        QgsProcessingFeedback, QgsProject)
 from qgis.PyQt.QtCore import QSize
-app = QgsApplication([], False)
-app.initQgis()
-from processing.core.Processing import Processing
 from processing.gui.Postprocessing import handleAlgorithmResults
-Processing.initialize()
-sys.path.append(os.environ['QGIS_PLUGINPATH'])
-import thalweg_tin
-plugin = thalweg_tin.classFactory(None)
-plugin.initProcessing()
 project = QgsProject.instance()
 registry = QgsApplication.processingRegistry()
 def run(name, parameters):
@@ -99,20 +95,10 @@ print('drawn', [color in colors for color in ('#1f6fd0', '#8a4b08', '#0040ff', '
 """
 
 # A model of two of the algorithms, as the designer saves it.
-MODEL = """
-import os, sys
-sys.path.append('/usr/share/qgis/python/plugins')
-from qgis.core import (QgsApplication, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm,
+MODEL = START + """
+from qgis.core import (QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm,
                        QgsProcessingModelChildParameterSource as Source, QgsProcessingModelOutput,
                        QgsProcessingModelParameter, QgsProcessingParameterFeatureSource)
-app = QgsApplication([], False)
-app.initQgis()
-from processing.core.Processing import Processing
-Processing.initialize()
-sys.path.append(os.environ['QGIS_PLUGINPATH'])
-import thalweg_tin
-plugin = thalweg_tin.classFactory(None)
-plugin.initProcessing()
 model = QgsProcessingModelAlgorithm('terrain', 'tests')
 model.addModelParameter(QgsProcessingParameterFeatureSource('points', 'Points'), QgsProcessingModelParameter('points'))
 build = QgsProcessingModelChildAlgorithm('thalweg:build')

@@ -1,6 +1,6 @@
 // Conditioning against its laws: a plain flood, all isotonic values on few heights, and the optimality
 // conditions of least squares.
-#include "support/meshes.hpp"
+#include "support/terrains.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/terrain/condition.hpp>
@@ -22,23 +22,6 @@ namespace thalweg {
 namespace {
 
 using enum ConditionStep;
-
-Tin random_terrain(int i, test::Random& random) {
-  if (i % 3 == 2) {
-    return test::random_lattice(random.integer<std::size_t>(2, 14), random.integer<std::size_t>(2, 14),
-                                random.integer(1, 9), random);
-  }
-  std::vector<Point2> points;
-  std::vector<double> heights;
-  for (std::size_t k = random.integer<std::size_t>(3, 250); k > 0; --k) {
-    const Point2 p{random.real(0, 100), random.real(0, 100)};
-    points.push_back(p);
-    const double hills = 10 * std::sin(p.x / 9) * std::cos(p.y / 13) + p.x / 20;
-    heights.push_back(i % 3 == 0 ? random.real(0, 10) : hills + random.real(0, 0.5));
-  }
-  Progress progress;
-  return triangulate(std::move(points), std::move(heights), {}, progress);
-}
 
 Tin with(const Tin& tin, std::vector<double> heights, std::span<const ConstraintEdge> constraints) {
   return {{tin.points().begin(), tin.points().end()},
@@ -149,7 +132,7 @@ TEST(ConditionLaws, FillAloneIsTheFlood) {
   test::Random random;
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 150; ++i) {
-    const Tin tin = random_terrain(i, random);
+    const Tin tin = test::random_terrain(i, random);
     const ConditionResult result = condition_heights(tin, {}, {.steps = {Fill}}, Progress());
     EXPECT_EQ(result.heights, plain_flood(tin)) << i;
     EXPECT_EQ(result.left, 0U);
@@ -161,7 +144,7 @@ TEST(ConditionLaws, NoPitIsLeftAndTheSumIsAtMostThatOfOneWay) {
   SCOPED_TRACE(random.trace());
   std::size_t breached = 0, filled = 0;
   for (int i = 0; i < 300; ++i) {
-    const Tin tin = random_terrain(i, random);
+    const Tin tin = test::random_terrain(i, random);
     double least = sum_of_changes(condition_heights(tin, {}, {.steps = {Fill}}, Progress()));
     for (const std::vector<ConditionStep>& steps : {std::vector{Breach}, std::vector{Fill, Breach}}) {
       const ConditionResult result = condition_heights(tin, {}, {.steps = steps}, Progress());
@@ -185,7 +168,7 @@ TEST(ConditionLaws, OnlyListedHeightsChange) {
   test::Random random;
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 100; ++i) {
-    const Tin tin = draw_valleys(random_terrain(i, random), 0.1, random);
+    const Tin tin = draw_valleys(test::random_terrain(i, random), 0.1, random);
     std::optional<double> limit;
     if (i % 2 == 0) limit = random.real(0, 2);
     const ConditionResult result = condition_heights(
@@ -209,7 +192,7 @@ TEST(ConditionLaws, NoValleyRises) {
   SCOPED_TRACE(random.trace());
   std::size_t broken = 0;
   for (int i = 0; i < 200; ++i) {
-    const Tin tin = draw_valleys(random_terrain(i, random), random.real(0, 0.4), random);
+    const Tin tin = draw_valleys(test::random_terrain(i, random), random.real(0, 0.4), random);
     const auto arcs = plain_valleys(tin).arcs;
     for (const ChangeNorm norm : {ChangeNorm::Sum, ChangeNorm::Squares}) {
       for (const std::vector<ConditionStep>& steps :

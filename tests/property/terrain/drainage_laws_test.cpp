@@ -1,5 +1,5 @@
 // Catchments, the table of pits and the network against their laws and a plain flood.
-#include "support/meshes.hpp"
+#include "support/terrains.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/terrain/catchments.hpp>
@@ -17,23 +17,6 @@
 
 namespace thalweg {
 namespace {
-
-Tin random_terrain(int i, test::Random& random) {
-  if (i % 3 == 2) {
-    return test::random_lattice(random.integer<std::size_t>(2, 14), random.integer<std::size_t>(2, 14),
-                                random.integer(1, 9), random);
-  }
-  std::vector<Point2> points;
-  std::vector<double> heights;
-  for (std::size_t k = random.integer<std::size_t>(3, 250); k > 0; --k) {
-    const Point2 p{random.real(0, 100), random.real(0, 100)};
-    points.push_back(p);
-    const double hills = 10 * std::sin(p.x / 9) * std::cos(p.y / 13) + p.x / 20;
-    heights.push_back(i % 3 == 0 ? random.real(0, 10) : hills + random.real(0, 0.5));
-  }
-  Progress progress;
-  return triangulate(std::move(points), std::move(heights), {}, progress);
-}
 
 double doubled_area(const CatchmentRing& ring) {
   double sum = 0;
@@ -63,7 +46,7 @@ TEST(CatchmentLaws, PolygonsTileTheTinAndHoldWhatDrainsThere) {
   SCOPED_TRACE(random.trace());
   int astray = 0;
   for (int i = 0; i < 150; ++i) {
-    const Tin tin = random_terrain(i, random);
+    const Tin tin = test::random_terrain(i, random);
     Progress progress;
     const SurfaceFlow flow(tin, {}, progress);
     std::vector<std::uint32_t> group(flow.sinks().size());
@@ -131,7 +114,7 @@ TEST(PitTableLaws, FillHeightsAreThoseOfAFlood) {
   test::Random random;
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 150; ++i) {
-    const Tin tin = random_terrain(i, random);
+    const Tin tin = test::random_terrain(i, random);
     std::vector<VertexId> outlets;
     if (i % 4 == 0) outlets.emplace_back(random.integer<std::size_t>(0, tin.vertex_count() - 1));
     Progress progress;
@@ -164,7 +147,7 @@ TEST(NetworkLaws, AreasAddUpDownstream) {
   test::Random random;
   SCOPED_TRACE(random.trace());
   for (int i = 0; i < 100; ++i) {
-    const Tin tin = random_terrain(i, random);
+    const Tin tin = test::random_terrain(i, random);
     Progress progress;
     const SurfaceFlow flow(tin, {}, progress);
     const double least = i % 2 == 0 ? 0 : measure(tin).area_m2 / 50;

@@ -3,7 +3,8 @@
 import re
 
 from qgis.core import (QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
-                       QgsProcessingParameterDefinition, QgsProcessingUtils, QgsVectorLayer)
+                       QgsProcessingParameterDefinition, QgsProcessingParameterFileDestination, QgsProcessingUtils,
+                       QgsVectorLayer)
 
 from .style import LayerStyle
 
@@ -38,6 +39,19 @@ class ThalwegAlgorithm(QgsProcessingAlgorithm):
 
     def createInstance(self):  # noqa: N802
         return type(self)()
+
+    def add_report(self):
+        """The parameter REPORT, which is made only where it is asked for."""
+        self.addParameter(QgsProcessingParameterFileDestination("REPORT", "Report", "JSON (*.json)", optional=True,
+                                                                createByDefault=False))
+
+    def report_arguments(self, parameters, context, results):
+        """What the program has to be told for REPORT; its path goes into the results."""
+        report = self.parameterAsFileOutput(parameters, "REPORT", context) if parameters.get("REPORT") else ""
+        if not report:
+            return []
+        results["REPORT"] = report
+        return ["--report", report]
 
     def advanced(self, parameter):
         """Adds a parameter that is folded away."""

@@ -69,8 +69,7 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
         self.addParameter(QgsProcessingParameterFileDestination(
             "LAYERS", "Triangles, edges, vertices, breaklines and conflicts", "GeoPackage (*.gpkg)", optional=True,
             createByDefault=False))
-        self.addParameter(QgsProcessingParameterFileDestination("REPORT", "Report", "JSON (*.json)", optional=True,
-                                                                createByDefault=False))
+        self.add_report()
         self.addParameter(QgsProcessingParameterFileDestination(
             "PICTURE", "Picture", "PNG (*.png);;SVG (*.svg);;PDF (*.pdf)", optional=True, createByDefault=False))
 

@@ -29,8 +29,7 @@ changed. The layers are loaded; the report is JSON."""
             self.advanced(QgsProcessingParameterNumber(name, label, QgsProcessingParameterNumber.Double, optional=True,
                                                        minValue=0))
         self.addParameter(QgsProcessingParameterFileDestination("OUTPUT", "Layers", "GeoPackage (*.gpkg)"))
-        self.addParameter(QgsProcessingParameterFileDestination("REPORT", "Report", "JSON (*.json)", optional=True,
-                                                                createByDefault=False))
+        self.add_report()
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
@@ -44,10 +43,7 @@ changed. The layers are loaded; the report is JSON."""
             if parameters.get(name) is not None:
                 arguments += [option, repr(self.parameterAsDouble(parameters, name, context))]
         results = {"OUTPUT": output}
-        report = self.parameterAsFileOutput(parameters, "REPORT", context) if parameters.get("REPORT") else ""
-        if report:
-            arguments += ["--report", report]
-            results["REPORT"] = report
+        arguments += self.report_arguments(parameters, context, results)
         run(arguments, feedback)
         self.load_layers(output, ("catchments", "network", "flow_paths", "pits"), "OUTPUT", context)
         return results

@@ -26,8 +26,7 @@ first-order alternatives. The mesh has to be a file that Thalweg reads: PLY, UGR
                                                    defaultValue="local-minima,normal-angle-sum"))
         self.advanced(QgsProcessingParameterEnum("DEFINITION", "Which constrained order", DEFINITIONS, defaultValue=0))
         self.addParameter(QgsProcessingParameterFileDestination("OUTPUT", "Optimised TIN", MESHES))
-        self.addParameter(QgsProcessingParameterFileDestination("REPORT", "Report", "JSON (*.json)", optional=True,
-                                                                createByDefault=False))
+        self.add_report()
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
@@ -36,10 +35,7 @@ first-order alternatives. The mesh has to be a file that Thalweg reads: PLY, UGR
                      "--definition", DEFINITIONS[self.parameterAsEnum(parameters, "DEFINITION", context)],
                      "--optimize", self.parameterAsString(parameters, "OPTIMIZE", context)]
         results = {"OUTPUT": output}
-        report = self.parameterAsFileOutput(parameters, "REPORT", context) if parameters.get("REPORT") else ""
-        if report:
-            arguments += ["--report", report]
-            results["REPORT"] = report
+        arguments += self.report_arguments(parameters, context, results)
         run(arguments, feedback)
         self.load_mesh(output, "Optimised TIN", "OUTPUT", context)
         return results

@@ -35,8 +35,7 @@ With a number of points as well, the limit that is reached first stops; the repo
         self.advanced(QgsProcessingParameterString("OPTIMIZE", "Criteria, in order of priority (none: Delaunay)",
                                                    defaultValue="local-minima,normal-angle-sum"))
         self.addParameter(QgsProcessingParameterFileDestination("OUTPUT", "Simplified TIN", MESHES))
-        self.addParameter(QgsProcessingParameterFileDestination("REPORT", "Report", "JSON (*.json)", optional=True,
-                                                                createByDefault=False))
+        self.add_report()
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         layer = self.parameterAsLayer(parameters, "INPUT", context)
@@ -57,10 +56,7 @@ With a number of points as well, the limit that is reached first stops; the repo
             for lines in self.parameterAsLayerList(parameters, name, context) or []:
                 arguments += [option, self.source(lines, context, feedback)]
         results = {"OUTPUT": output}
-        report = self.parameterAsFileOutput(parameters, "REPORT", context) if parameters.get("REPORT") else ""
-        if report:
-            arguments += ["--report", report]
-            results["REPORT"] = report
+        arguments += self.report_arguments(parameters, context, results)
         run(arguments, feedback)
         self.load_mesh(output, "Simplified TIN", "OUTPUT", context)
         return results
