@@ -8,6 +8,7 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/geometry/slope.hpp>
 #include <thalweg/optimize/criterion.hpp>
 
 #include <algorithm>
@@ -132,6 +133,39 @@ std::int64_t degree(const Star& star) {
   return star.edges;
 }
 
+/// Whether an edge at the vertex is drawn as a valley.
+bool on_valley(const Tin& tin, VertexId v) {
+  const std::span<const HalfedgeId> outgoing = tin.outgoing(v);
+  return std::any_of(outgoing.begin(), outgoing.end(), [&](HalfedgeId h) {
+    return has(tin.kind(h), EdgeKind::Valley) || has(tin.kind(Tin::previous(h)), EdgeKind::Valley);
+  });
+}
+
+/// 1 if all three corners are on drawn valleys: water short-circuits the channel there, or meets a dam.
+double valley_triangle(const Face& face, const Tin& tin) {
+  const auto& corner = face.corner;
+  return std::all_of(corner.begin(), corner.end(), [&](const Corner& c) { return on_valley(tin, c.vertex); })
+             ? 1
+             : 0;
+}
+
+/// Length in the plane, in metres, of an edge that is drawn as a valley and is a valley edge of the surface:
+/// not level, and both triangles drain into it, at least one of them not just along it. Decided exactly.
+double draining_valley(const Face& left, const Face& right, Scale scale, const Tin& tin) {
+  const Corner &l = apex_across(right, left), &r = apex_across(left, right);
+  const auto i = static_cast<std::size_t>(&l - left.corner.data());
+  const Corner &a = left.corner[(i + 1) % 3], &b = left.corner[(i + 2) % 3];
+  if (a.height == b.height) return 0;
+  HalfedgeId h = tin.find_halfedge(a.vertex, b.vertex);
+  if (!h.valid()) h = tin.find_halfedge(b.vertex, a.vertex);
+  if (!h.valid() || !has(tin.kind(h), EdgeKind::Valley)) return 0;
+  const auto fall = [&](const Corner& apex) {
+    return fall_across(a.at, a.height, b.at, b.height, apex.at, apex.height);
+  };
+  const int of_left = fall(l), of_right = fall(r);
+  return of_left >= 0 && of_right >= 0 && of_left + of_right > 0 ? edge_length(left, right, scale) : 0;
+}
+
 constexpr auto kMinimise = Direction::Minimise;
 constexpr auto kMaximise = Direction::Maximise;
 
@@ -202,6 +236,20 @@ constexpr std::array kDeclarations = {
         nullptr,
         degree,
         true},
+    // The depth of every interior pit, summed: from its bottom up to the lowest height at which it is joined,
+    // along edges, to a lower bottom, to the rim or to a lake (of bottoms of equal height, one counts as the
+    // lower). On a TIN ways along edges have the lowest highest points of all ways on the surface, so that is
+    // where the pit spills. Equal to the sum of persistences in Edelsbrunner, Letscher, Zomorodian,
+    // Topological persistence and simplification, 2002, and to the weight of a minimum spanning tree of the
+    // edges, each at its higher end, less all heights. What it does not say is how much water a pit holds.
+    Declaration{{Criterion::PitDepth, "pit-depth", "metres", kMinimise, Coupling::Plateau, Combination::Sum}},
+    // Watershed-workflow and others repair these by hand.
+    Declaration{.traits = {Criterion::ValleyTriangles, "valley-triangles", "count", kMinimise,
+                           Coupling::OneTriangle, Combination::Count},
+                .drawn_triangle = valley_triangle},
+    Declaration{.traits = {Criterion::DrainingValleys, "draining-valleys", "metres", kMaximise,
+                           Coupling::Edge, Combination::Sum},
+                .drawn_edge = draining_valley},
 };
 
 constexpr auto kTraits = [] {
@@ -272,6 +320,10 @@ bool Objective::needs_reference() const {
   return std::any_of(parts.begin(), parts.end(), [](const Part& part) {
     return declaration_of(part.criterion).against_reference != nullptr;
   });
+}
+
+bool Objective::is_of_pits() const {
+  return traits_of(parts.front().criterion).coupling == Coupling::Plateau;
 }
 
 std::string Objective::name() const {

@@ -17,6 +17,10 @@ using EdgeTerm = double (*)(const Face&, const Face&, Scale);
 /// where the surface goes on flat.
 using AngleTerm = double (*)(double);
 
+/// The same where it matters what is drawn: the TIN says which edges are drawn as what.
+using DrawnTriangleTerm = double (*)(const Face&, const Tin&);
+using DrawnEdgeTerm = double (*)(const Face&, const Face&, Scale, const Tin&);
+
 /// The term of a triangle that is measured against a reference, and what it leaves for the rim of the TIN.
 using ReferenceTerm = double (*)(const Face&, Scale, const Reference&);
 
@@ -29,8 +33,8 @@ struct Star {
 /// The term of a vertex that is in a triangle: a whole number.
 using VertexTerm = std::int64_t (*)(const Star&);
 
-/// Of the terms there is the one that the coupling says (of a triangle's, one); for Plateau there is none
-/// (plateaus.cpp).
+/// Of the terms there is the one that the coupling says (of a triangle's or an edge's, one); for Plateau
+/// there is none (plateaus.cpp, spills.cpp).
 struct Declaration {
   CriterionTraits traits;
   TriangleTerm triangle = nullptr;
@@ -39,11 +43,19 @@ struct Declaration {
   VertexTerm vertex = nullptr;
   bool sum_is_fixed = false;  ///< no label changes the sum of all terms
   AngleTerm of_angle = nullptr;
+  DrawnTriangleTerm drawn_triangle = nullptr;
+  DrawnEdgeTerm drawn_edge = nullptr;
 
+  /// Of the coupling OneTriangle: its term. `reference` may be null if it is not measured against one.
+  [[nodiscard]] double of_triangle(const Face& face, Scale scale, const Tin& tin,
+                                   const Reference* reference) const {
+    if (triangle != nullptr) return triangle(face, scale);
+    return drawn_triangle != nullptr ? drawn_triangle(face, tin) : against_reference(face, scale, *reference);
+  }
   /// Of the coupling Edge: its term.
-  [[nodiscard]] double of_edge(const Face& left, const Face& right, Scale scale) const {
-    return of_angle != nullptr ? of_angle(angle_between(left.normal, right.normal))
-                               : edge(left, right, scale);
+  [[nodiscard]] double of_edge(const Face& left, const Face& right, Scale scale, const Tin& tin) const {
+    if (of_angle != nullptr) return of_angle(angle_between(left.normal, right.normal));
+    return edge != nullptr ? edge(left, right, scale) : drawn_edge(left, right, scale, tin);
   }
 };
 

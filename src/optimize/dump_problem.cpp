@@ -87,7 +87,7 @@ class Writer {
         problem_(std::move(problem)),
         level_(problem_.sums.empty() ? Criteria : 0),  // the level after the sums counts flips
         forbidden_(more_than_any()) {
-    if (problem_.pits_first) blocks_ = link_blocks(problem_.plateaus);
+    if (problem_.pits_first) blocks_ = link_blocks(problem_.connectivity());
   }
 
   void write(const Progress& progress) {
@@ -201,7 +201,7 @@ class Writer {
   void write_link(std::size_t b, std::size_t i) {
     const LinkBlock& block = blocks_[b];
     const std::uint32_t q = block.variable[i];
-    const int unhelpful = problem_.plateaus.link[q].helpful == Label::One ? 0 : 1;
+    const int unhelpful = problem_.connectivity().link[q].helpful == Label::One ? 0 : 1;
     const auto& [first, second] = block.ends[i];
     for (const auto& [node, next] : {NodePair{first, second}, NodePair{second, first}}) {
       if (node == block.sink()) continue;
@@ -240,8 +240,8 @@ void count_no_better(FirstOrderProblem<Criteria>& problem, const Tin& tin,
                      Progress& progress) {
   const Objective objective = problem.sums[0];
   OptimizeOptions alone = options;
-  alone.criteria = {objective};
-  if (problem.pits_first) alone.criteria.insert(alone.criteria.begin(), Criterion::LocalMinima);
+  alone.criteria.resize(count_leading_pits(options.criteria), objective);
+  alone.criteria.push_back(objective);
   const double result = optimize_first_order(tin, quadrilaterals, alone, progress).criteria.back().result;
   const TermScan scan(tin, quadrilaterals, problem.owner,
                       {options.horizontal_metres_per_unit, options.vertical_metres_per_unit},

@@ -54,7 +54,7 @@ class EdgeBatch {
       std::transform(triangles.begin(), triangles.end(), bodies_.begin(),
                      [&](const Triangle& t) { return faces_.face(t[0], t[1], t[2]); });
       std::transform(sides.begin(), sides.end(), value_.begin(), [&](const BodyPair& side) {
-        return declaration_.edge(bodies_[side[0]], bodies_[side[1]], faces_.scale);
+        return declaration_.of_edge(bodies_[side[0]], bodies_[side[1]], faces_.scale, faces_.tin);
       });
     } else {
       find_normals(faces_.tin, triangles, faces_.scale, bodies_);

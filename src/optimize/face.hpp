@@ -15,6 +15,7 @@ namespace thalweg {
 struct Corner {
   Point2 at;
   double height = 0;
+  VertexId vertex;
   bool operator==(const Corner&) const = default;
 };
 
@@ -42,7 +43,7 @@ inline Face make_face(Corner a, Corner b, Corner c, Scale scale) {
 }
 
 inline Corner corner_of(const Tin& tin, VertexId v) {
-  return {tin.point(v), tin.height(v)};
+  return {tin.point(v), tin.height(v), v};
 }
 
 }  // namespace thalweg

@@ -25,23 +25,20 @@ std::int64_t TermLevel::measure(double value) const {
   return steps > *limit ? 1 : 0;
 }
 
-std::int64_t TermLevel::of(const Face& triangle, Scale scale) const {
+std::int64_t TermLevel::of(const Face& triangle, Scale scale, const Tin& tin) const {
   std::int64_t sum = 0;
   for (const Part& part : parts) {
-    if (part.declaration->triangle != nullptr) {
-      sum += measure(part.factor * part.declaration->triangle(triangle, scale));
-    } else if (part.declaration->against_reference != nullptr) {
-      sum += measure(part.factor * part.declaration->against_reference(triangle, scale, *reference));
-    }
+    if (part.declaration->traits.coupling != Coupling::OneTriangle) continue;
+    sum += measure(part.factor * part.declaration->of_triangle(triangle, scale, tin, reference));
   }
   return sum;
 }
 
-std::int64_t TermLevel::of(const Face& left, const Face& right, Scale scale) const {
+std::int64_t TermLevel::of(const Face& left, const Face& right, Scale scale, const Tin& tin) const {
   std::int64_t sum = 0;
   for (const Part& part : parts) {
     if (part.declaration->traits.coupling != Coupling::Edge) continue;
-    sum += measure(part.factor * part.declaration->of_edge(left, right, scale));
+    sum += measure(part.factor * part.declaration->of_edge(left, right, scale, tin));
   }
   return sum;
 }
@@ -49,7 +46,7 @@ std::int64_t TermLevel::of(const Face& left, const Face& right, Scale scale) con
 TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit,
                    const Reference* reference) {
   TermLevel level{.parts = {}, .limit = limit, .reference = reference};
-  if (objective.is(Criterion::LocalMinima)) return level;
+  if (objective.is_of_pits()) return level;
   const double sign = objective.direction() == Direction::Maximise ? -1 : 1;
   for (const Objective::Part& part : objective.parts) {
     level.parts.push_back({&declaration_of(part.criterion), sign * part.weight});

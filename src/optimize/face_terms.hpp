@@ -29,8 +29,8 @@ struct TermLevel {
   std::optional<std::int64_t> limit;
   const Reference* reference = nullptr;  ///< for terms that are measured against one
 
-  [[nodiscard]] std::int64_t of(const Face& triangle, Scale scale) const;
-  [[nodiscard]] std::int64_t of(const Face& left, const Face& right, Scale scale) const;
+  [[nodiscard]] std::int64_t of(const Face& triangle, Scale scale, const Tin& tin) const;
+  [[nodiscard]] std::int64_t of(const Face& left, const Face& right, Scale scale, const Tin& tin) const;
 
  private:
   [[nodiscard]] std::int64_t measure(double value) const;
@@ -71,12 +71,12 @@ struct FaceTerms {
 
   [[nodiscard]] Weight<Criteria> of(const Face& triangle) const {
     Weight<Criteria> weight{};
-    for (std::size_t i = 0; i < Criteria; ++i) weight[i] = levels[i].of(triangle, scale);
+    for (std::size_t i = 0; i < Criteria; ++i) weight[i] = levels[i].of(triangle, scale, tin);
     return weight;
   }
   [[nodiscard]] Weight<Criteria> of(const Face& left, const Face& right) const {
     Weight<Criteria> weight{};
-    for (std::size_t i = 0; i < Criteria; ++i) weight[i] = levels[i].of(left, right, scale);
+    for (std::size_t i = 0; i < Criteria; ++i) weight[i] = levels[i].of(left, right, scale, tin);
     return weight;
   }
 };

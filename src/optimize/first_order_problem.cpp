@@ -2,6 +2,7 @@
 // links.
 #include "optimize/first_order_problem.hpp"
 
+#include "optimize/spills.hpp"
 #include "optimize/ties.hpp"
 #include "optimize/vertex_terms.hpp"
 
@@ -38,14 +39,19 @@ void check_options(const Tin& tin, const OptimizeOptions& options) {
                                         " edges; fewer than 268435456 can be optimised: split the area");
 }
 
+std::size_t count_leading_pits(std::span<const Objective> criteria) {
+  const auto end = std::find_if(criteria.begin(), criteria.end(),
+                                [](const Objective& objective) { return !objective.is_of_pits(); });
+  return static_cast<std::size_t>(end - criteria.begin());
+}
+
 std::size_t count_levels(std::span<const Objective> criteria) {
   constexpr std::size_t kMost = 4;
-  const bool pits_first = !criteria.empty() && criteria.front().is(Criterion::LocalMinima);
-  const std::size_t sums = criteria.size() - (pits_first ? 1 : 0);
+  const std::size_t sums = criteria.size() - count_leading_pits(criteria);
   if (sums > kMost) {
     throw Error(ErrorCode::Usage, "there are " + std::to_string(sums) +
-                                      " criteria; at most 4, and local-minima before them, can be put in "
-                                      "order of priority");
+                                      " criteria; at most 4, and local-minima and pit-depth before them, can "
+                                      "be put in order of priority");
   }
   return std::bit_ceil(std::max<std::size_t>(sums, 1));
 }
@@ -55,15 +61,11 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
                                           const OptimizeOptions& options, Progress& progress) {
   check_options(tin, options);
   FirstOrderProblem<Criteria> problem;
-  for (const Objective& objective : options.criteria) {
-    const bool counts_pits = objective.is(Criterion::LocalMinima);
-    if (counts_pits && problem.sums.empty()) {
-      problem.pits_first = true;
-      continue;
-    }
-    if (counts_pits) problem.pit_level = problem.sums.size();
-    problem.sums.push_back(objective);
-  }
+  const std::size_t leading = count_leading_pits(options.criteria);
+  problem.pits_first = leading > 0;
+  const auto sums = options.criteria.begin() + static_cast<std::ptrdiff_t>(leading);
+  problem.depth_first = std::find(options.criteria.begin(), sums, Criterion::PitDepth) != sums;
+  problem.sums.assign(sums, options.criteria.end());
   problem.owner = quadrilaterals_of_triangles(tin, quadrilaterals);
   const std::vector<std::uint32_t>& owner = problem.owner;
   const Scale scale{options.horizontal_metres_per_unit, options.vertical_metres_per_unit};
@@ -81,15 +83,18 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   }
   progress.advance(0.1);
   for (std::size_t level = 0; level < problem.sums.size(); ++level) {
-    if (!problem.sums[level].is_extreme() && problem.pit_level != level) {
+    if (!problem.sums[level].is_extreme() && !problem.sums[level].is_of_pits()) {
       problem.delaunay[level] = add_objective(scan, problem.sums[level], level, labelling, progress);
     }
     progress.advance(0.1 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
   }
   problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);
   progress.advance(0.9);
-  if (problem.pits_first || problem.pit_level)
+  const auto counts_pits = [](const Objective& objective) { return objective.is(Criterion::LocalMinima); };
+  if (std::any_of(options.criteria.begin(), options.criteria.end(), counts_pits)) {
     problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);
+  }
+  if (problem.depth_first) problem.spills = find_spills(tin, quadrilaterals, owner, progress);
   progress.advance(1);
   return problem;
 }

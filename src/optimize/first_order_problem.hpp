@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,23 +17,30 @@ namespace thalweg {
 
 template <std::size_t Criteria>
 struct FirstOrderProblem {
-  /// The objectives in order of priority, but local minima where they come first: then they are a condition
-  /// on links. The level of an extreme is for the number of terms beyond a limit, that of local minima for
-  /// what pit_terms.hpp adds; both are empty at first.
+  /// The objectives in order of priority, but those of pits that come first: they are a condition on links.
+  /// The level of an extreme is for the number of terms beyond a limit, that of an objective of pits for what
+  /// pit_terms.hpp adds; both are empty at first.
   std::vector<Objective> sums;
-  bool pits_first = false;
-  std::optional<std::size_t> pit_level;  ///< of the sums: local minima
+  bool pits_first = false;   ///< local minima or depth
+  bool depth_first = false;  ///< depth is among them; it is a condition stronger than that of local minima
 
   Labelling<Criteria> labelling;  ///< level i is sums[i]; label 1 flips; without links
   std::array<WideSteps, Criteria> delaunay{};
   std::vector<std::uint32_t> owner;  ///< the quadrilateral of each triangle, or kNone
   std::vector<std::uint32_t> rank;   ///< of quadrilaterals, by coordinates alone
   PlateauGraph plateaus;             ///< if pits are counted
+  PlateauGraph spills;               ///< if their depth comes first
+
+  /// What the links have to connect. Pre: pits_first.
+  [[nodiscard]] const PlateauGraph& connectivity() const { return depth_first ? spills : plateaus; }
 };
 
 /// Throws: Error{Usage} for a criterion given twice, a unit that is not positive, a width limit out of range;
 /// {SizeLimit} from 2^28 edges on.
 void check_options(const Tin& tin, const OptimizeOptions& options);
+
+/// How many criteria at the beginning are of pits.
+std::size_t count_leading_pits(std::span<const Objective> criteria);
 
 /// Levels of costs that the criteria need: 1, 2 or 4. Throws: Error{Usage} if that is not enough.
 std::size_t count_levels(std::span<const Objective> criteria);

@@ -284,7 +284,7 @@ class FaceRun {
       corners.push_back(face_of(delaunay_, faces_, t, scale_));
       const auto& sides = faces_.sides[t];
       const bool fixed = sides_.owner[sides[0]] == FaceSides::kNoFace;
-      if (of_triangles) note(level.of(corners.back(), scale_), fixed);
+      if (of_triangles) note(level.of(corners.back(), scale_, delaunay_), fixed);
     }
     for (std::uint32_t e = 0; e < faces_.edges.size() && !of_triangles; ++e) {
       if (e % 4096 == 0) progress_.check();
@@ -292,7 +292,7 @@ class FaceRun {
       const bool fixed = sides_.owner[one] == FaceSides::kNoFace && sides_.owner[other] == FaceSides::kNoFace;
       for (const std::uint32_t left : sides_.triangles.row(one)) {
         for (const std::uint32_t right : sides_.triangles.row(other)) {
-          note(level.of(corners[left], corners[right], scale_), fixed);
+          note(level.of(corners[left], corners[right], scale_, delaunay_), fixed);
         }
       }
     }
@@ -417,7 +417,7 @@ void refuse_other_terms(const std::vector<Objective>& criteria) {
   for (const Objective& objective : criteria) {
     for (const Objective::Part& part : objective.parts) {
       const Declaration& declaration = declaration_of(part.criterion);
-      if (declaration.vertex == nullptr) continue;
+      if (declaration.vertex == nullptr && part.criterion != Criterion::PitDepth) continue;
       throw Error(ErrorCode::Unsupported, "criterion " + std::string(declaration.traits.name) +
                                               " cannot be optimised at orders above 1, nor under sees-3vtx "
                                               "and empty-quad; take --order 1 and --definition sees-opp");

@@ -1,16 +1,15 @@
 // From a TIN and its quadrilaterals to a labelling problem, and back.
 //
 // 1. The problem is put together (first_order_problem.cpp).
-// 2. Local minima first, or alone: the labellings whose links connect all they can are those with the fewest
-//    pits; of them the one of least cost (solver.cpp).
+// 2. Local minima or depth of pits first, or alone: the labellings whose links connect all they can are those
+//    with the fewest, or least deep, pits; of them the one of least cost (solver.cpp).
 // 3. An objective that is the worst of its terms: what matters is that no term is beyond the least limit that
 //    leaves the criteria before it at their best. Its level counts the terms beyond a limit; the least limit
 //    with none is found by bisection among the values of terms, each step a solution of levels up to this
 //    one. Below it the next criterion decides; if none is named, the sum of normal angles. Of vertices only
 //    those are counted at which labels were found to be beyond the limit, more and more of them: the others
 //    keep it by themselves, and would only tie everything to everything.
-// 4. Local minima after other criteria: a level that counts pits, at first too few (pit_terms.cpp); it is
-// refined
+// 4. Either after other criteria: a level that counts pits, at first too few (pit_terms.cpp); it is refined
 //    until it counts those of the solution right, and all that depends on it is done again.
 // 5. What is reported of a criterion after one that is not proved optimal is no more than what no labels
 // beat.
@@ -20,6 +19,7 @@
 #include "optimize/pit_terms.hpp"
 #include "optimize/proof_steps.hpp"
 #include "optimize/solver.hpp"
+#include "optimize/spills.hpp"
 #include "optimize/wide.hpp"
 
 #include <thalweg/optimize/optimize.hpp>
@@ -57,6 +57,7 @@ class Run {
         completed_(reported < options.criteria.size()),
         limits_{options.width_limit, options.effort},
         proof_(options.proof),
+        vertical_metres_(options.vertical_metres_per_unit),
         progress_(progress),
         problem_(begin(tin, quadrilaterals, options, progress)),
         scan_(tin, quadrilaterals, problem_.owner,
@@ -87,8 +88,8 @@ class Run {
     for (std::size_t later = level; later < Criteria; ++later) part.tables.clear_level(later);
     part.tables.index(part.size());
     if (problem_.pits_first) {
-      part.link = problem_.plateaus.link;
-      part.node_count = problem_.plateaus.node_count;
+      part.link = problem_.connectivity().link;
+      part.node_count = problem_.connectivity().node_count;
     }
     return part;
   }
@@ -199,11 +200,12 @@ class Run {
   void choose() {
     Labelling<Criteria>& labelling = problem_.labelling;
     if (problem_.pits_first) {
-      labelling.link = problem_.plateaus.link;
-      labelling.node_count = problem_.plateaus.node_count;
+      labelling.link = problem_.connectivity().link;
+      labelling.node_count = problem_.connectivity().node_count;
     }
-    const std::size_t pits = problem_.pit_level.value_or(problem_.sums.size());
-    settle_from(0, pits);
+    std::vector<CountedPits> counted = count_pits_below();
+    const std::size_t first = counted.empty() ? problem_.sums.size() : counted.front().level;
+    settle_from(0, first);
     if (proof_ != nullptr) {
       // The verifier counts all vertices.
       if (held_) hold(held_->most, 1), count_held(labelling);
@@ -212,23 +214,48 @@ class Run {
     }
     // What decides where nothing was named needs no bound.
     if (completed_) limits_.effort /= kLessForCompletion;
-    if (!problem_.pit_level) {
+    if (counted.empty()) {
       solution_ = solve_held(labelling);
       keep_limits();
       return;
     }
     const std::size_t quadrilaterals = problem_.rank.size();
-    PitTerms terms = pit_terms();
-    for (pits_ = PitTerms::Outcome::Refined; pits_ == PitTerms::Outcome::Refined;) {
-      lay_pits(terms, quadrilaterals);
-      settle_from(pits + 1, problem_.sums.size());
+    for (bool refined = true; refined;) {
+      lay_pits(counted, quadrilaterals);
+      settle_from(first + 1, problem_.sums.size());
       solution_ = solve_held(labelling);
       keep_limits();
-      pits_ = terms.refine(solution_.label);
+      refined = false;
+      for (CountedPits& pits : counted) {
+        if (pits.terms.refine(solution_.label) == PitTerms::Outcome::Refined) refined = true;
+      }
     }
     problem_.rank.resize(quadrilaterals);
     solution_.label.resize(quadrilaterals);
-    problem_.delaunay[pits] = terms.constant();
+    for (const CountedPits& pits : counted) {
+      problem_.delaunay[pits.level] = pits.constant + pits.terms.constant();
+    }
+  }
+
+  /// An objective of pits after others, as terms of its level.
+  struct CountedPits {
+    std::size_t level = 0;
+    PitTerms terms;
+    WideSteps constant = 0;  ///< steps beside those of the terms
+  };
+
+  [[nodiscard]] std::vector<CountedPits> count_pits_below() const {
+    std::vector<CountedPits> counted;
+    for (std::size_t level = 0; level < problem_.sums.size(); ++level) {
+      if (problem_.sums[level].is(Criterion::LocalMinima)) {
+        counted.push_back({level, pit_terms(), 0});
+      } else if (problem_.sums[level].is(Criterion::PitDepth)) {
+        DepthTerms depth = find_depth_terms(scan_.tin(), scan_.quadrilaterals(), problem_.owner,
+                                            vertical_metres_, problem_.rank, progress_);
+        counted.push_back({level, std::move(depth.terms), depth.constant});
+      }
+    }
+    return counted;
   }
 
   /// Where stars too wide for tables are beyond the limit, other labels are taken that are not; the bound
@@ -257,16 +284,19 @@ class Run {
       const Link& link = problem_.plateaus.link[q];
       if (link.exists()) links.push_back({link.a, link.b, {q, link.helpful}});
     }
-    return {std::move(links), problem_.plateaus.node_count, problem_.rank};
+    return {std::move(links), std::vector<std::int64_t>(problem_.plateaus.node_count, to_steps(1)),
+            problem_.rank};
   }
 
-  /// Fills the level of pits anew, with auxiliary variables after the quadrilaterals.
-  void lay_pits(const PitTerms& terms, std::size_t quadrilaterals) {
+  /// Fills the levels of pits anew, with auxiliary variables after the quadrilaterals.
+  void lay_pits(std::span<const CountedPits> counted, std::size_t quadrilaterals) {
     Labelling<Criteria>& labelling = problem_.labelling;
     labelling.unary.resize(quadrilaterals);
     labelling.first.resize(quadrilaterals + 1);
-    labelling.tables.clear_level(*problem_.pit_level);
-    terms.add_to(labelling, *problem_.pit_level);
+    for (const CountedPits& pits : counted) {
+      labelling.tables.clear_level(pits.level);
+      pits.terms.add_to(labelling, pits.level);
+    }
     problem_.rank.resize(labelling.size());
     std::iota(problem_.rank.begin() + static_cast<std::ptrdiff_t>(quadrilaterals), problem_.rank.end(),
               static_cast<std::uint32_t>(quadrilaterals));
@@ -274,14 +304,14 @@ class Run {
     known_.resize(known_.empty() ? 0 : labelling.size(), Label::Zero);
   }
 
-  /// A stage for each extreme, and one for the sums between two of them. Local minima after other criteria,
-  /// and what follows them, have none.
+  /// A stage for each extreme, and one for the sums between two of them. Pits after other criteria, and what
+  /// follows them, have none.
   void write_proof() {
-    std::size_t end = 0;
-    while (end < criteria_.size() && (end == 0 || !criteria_[end].is(Criterion::LocalMinima))) ++end;
+    const std::size_t begin = count_leading_pits(criteria_);
+    std::size_t end = begin;
+    while (end < criteria_.size() && !criteria_[end].is_of_pits()) ++end;
     std::size_t level = 0;
-    for (std::size_t i = 0; i < end; ++i) {
-      if (criteria_[i].is(Criterion::LocalMinima)) continue;
+    for (std::size_t i = begin; i < end; ++i) {
       if (criteria_[i].is_extreme()) {
         write_extreme_stage(i + 1, level);
       } else if (i + 1 == end || criteria_[i + 1].is_extreme()) {
@@ -328,15 +358,17 @@ class Run {
     result.pieces = solution_.figures.pieces;
     result.largest_piece = solution_.figures.largest_piece;
     result.width = solution_.figures.width;
+    const std::size_t leading = count_leading_pits(criteria_);
     std::size_t level = 0;
     bool proved = true;
     for (const Objective& objective : criteria_) {
+      const bool leads = result.criteria.size() < leading;
       CriterionResult line;
       line.name = objective.name();
       line.unit = objective.unit();
       line.direction = objective.direction() == Direction::Minimise ? "min" : "max";
-      if (objective.is(Criterion::LocalMinima)) {
-        fill_pits(line, problem_.pits_first ? std::nullopt : std::optional(level++), proved);
+      if (objective.is_of_pits()) {
+        fill_pits(line, objective, leads ? std::nullopt : std::optional(level++), proved);
       } else if (objective.is_extreme()) {
         fill_extreme(line, level++, proved);
       } else {
@@ -348,16 +380,23 @@ class Run {
     return result;
   }
 
-  void fill_pits(CriterionResult& line, std::optional<std::size_t> level, bool proved_before) const {
-    const std::vector<Label> kept(problem_.rank.size(), Label::Zero), all(problem_.rank.size(), Label::Open);
-    line.delaunay = static_cast<double>(count_pits(problem_.plateaus, kept));
-    line.result = static_cast<double>(count_pits(problem_.plateaus, solution_.label));
-    line.bound = static_cast<double>(count_pits(problem_.plateaus, all));
+  void fill_pits(CriterionResult& line, const Objective& objective, std::optional<std::size_t> level,
+                 bool proved_before) const {
+    const bool depth = objective.is(Criterion::PitDepth);
+    const auto value = [&](const std::vector<Label>& label) {
+      if (!depth) return static_cast<double>(count_pits(problem_.plateaus, label));
+      return static_cast<double>(
+                 pit_depth_of(scan_.tin(), scan_.quadrilaterals(), label, vertical_metres_, progress_)) /
+             kStepsPerUnit;
+    };
+    line.delaunay = value(std::vector<Label>(problem_.rank.size(), Label::Zero));
+    line.result = value(solution_.label);
+    line.bound = value(std::vector<Label>(problem_.rank.size(), Label::Open));
     line.method = "connectivity";
     if (level) {
-      const WideSteps bound = problem_.delaunay[*level] + solution_.bound.level[*level];
-      const double ceiling = std::ceil(static_cast<double>(bound) / kStepsPerUnit);
-      if (proved_before) line.bound = std::max(line.bound, ceiling);
+      const WideSteps steps = problem_.delaunay[*level] + solution_.bound.level[*level];
+      const double bound = static_cast<double>(steps) / kStepsPerUnit;
+      if (proved_before) line.bound = std::max(line.bound, depth ? bound : std::ceil(bound));
       line.method = "connectivity by " + method_name(solution_.figures);
     }
     line.optimal = proved_before && line.result == line.bound;
@@ -404,12 +443,12 @@ class Run {
   bool completed_;  ///< by a criterion that was not asked for
   SolverLimits limits_;
   std::ostream* proof_;
+  double vertical_metres_;
   Progress& progress_;
   FirstOrderProblem<Criteria> problem_;
   TermScan scan_;
   std::array<Settled, Criteria> settled_{};
   std::optional<HeldVertices> held_;
-  PitTerms::Outcome pits_ = PitTerms::Outcome::Exact;  ///< of pits after other criteria
   std::vector<Label> known_;  ///< labels within all limits settled so far; empty if there are none
   Solution<Criteria> solution_;
 };

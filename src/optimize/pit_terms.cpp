@@ -30,9 +30,13 @@ bool is_true(const Literal& literal, std::span<const Label> label) {
 
 }  // namespace
 
-PitTerms::PitTerms(std::vector<PitLink> links, std::size_t node_count, std::span<const std::uint32_t> rank)
-    : links_(std::move(links)), links_at_(node_count), group_(node_count, kNone) {
-  std::sort(links_.begin(), links_.end(), [&](const PitLink& x, const PitLink& y) {
+PitTerms::PitTerms(std::vector<PitLink> links, std::vector<std::int64_t> weight,
+                   std::span<const std::uint32_t> rank)
+    : links_(std::move(links)),
+      weight_(std::move(weight)),
+      links_at_(weight_.size()),
+      group_(weight_.size(), kNone) {
+  std::stable_sort(links_.begin(), links_.end(), [&](const PitLink& x, const PitLink& y) {
     if (x.when.variable != y.when.variable) return rank[x.when.variable] < rank[y.when.variable];
     return x.when.label < y.when.label;
   });
@@ -50,9 +54,9 @@ PitTerms::PitTerms(std::vector<PitLink> links, std::size_t node_count, std::span
 
 std::int64_t PitTerms::constant() const {
   const auto alone = [&](std::size_t node) { return links_at_[node].empty(); };
-  std::int64_t count = 0;
-  for (std::size_t node = 1; node < links_at_.size(); ++node) count += alone(node) ? 1 : 0;
-  return count * to_steps(1);
+  std::int64_t sum = 0;
+  for (std::size_t node = 1; node < links_at_.size(); ++node) sum += alone(node) ? weight_[node] : 0;
+  return sum;
 }
 
 /// Writes the terms of one level.
@@ -64,6 +68,7 @@ class PitTerms::Writer {
 
   void write_group(std::span<const std::uint32_t> nodes) {
     const std::uint32_t group = terms_.group_[nodes.front()];
+    weight_ = terms_.weight_[nodes.front()];
     std::vector<Literal> leaving(nodes.size());
     std::vector<const PitLink*> inside;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -111,7 +116,7 @@ class PitTerms::Writer {
             std::find(table.scope.begin(), table.scope.end(), literals[i].variable) - table.scope.begin();
         holds[i] = ((e >> place & 1U) != 0) == (literals[i].label == Label::One);
       }
-      table.entry.emplace_back()[level_] = pits(holds) * to_steps(1);
+      table.entry.emplace_back()[level_] = pits(holds) * weight_;
     }
     labelling_.tables.append(table);
   }
@@ -175,6 +180,7 @@ class PitTerms::Writer {
   const PitTerms& terms_;
   Labelling<Criteria>& labelling_;
   std::size_t level_;
+  std::int64_t weight_ = 0;  ///< of a pit of the present group
   std::vector<Literal> rest_;
 };
 
@@ -195,12 +201,6 @@ std::vector<std::uint32_t> PitTerms::components(std::span<const Label> label) co
   std::vector<std::uint32_t> of(links_at_.size());
   for (std::uint32_t node = 0; node < of.size(); ++node) of[node] = sets.find(node);
   return of;
-}
-
-std::int64_t PitTerms::count(std::span<const Label> label) const {
-  std::vector<std::uint32_t> of = components(label);
-  std::sort(of.begin(), of.end());
-  return std::unique(of.begin(), of.end()) - of.begin() - 1;
 }
 
 PitTerms::Outcome PitTerms::refine(std::span<const Label> label) {

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Interior pits as a sum of tables, for where they cannot come first as a condition.
+/// Interior pits, or their depths, as a sum of tables, for where they cannot come first as a condition.
 
 #include "optimize/bucket_elimination.hpp"
 #include "optimize/labelling.hpp"
@@ -18,22 +18,21 @@ struct PitLink {
   Literal when;
 };
 
-/// Counts the components without node 0: for every labelling at most their number, and exactly that where
-/// `refine` says so.
+/// Counts the components without node 0, each by the weight of its nodes: for every labelling at most their
+/// sum, and exactly that where `refine` says so.
 class PitTerms {
  public:
-  /// Pre: links join different nodes. The tables do not depend on the numbers of nodes if `rank`, by
-  /// variable, does not.
-  PitTerms(std::vector<PitLink> links, std::size_t node_count, std::span<const std::uint32_t> rank);
+  /// `weight`: by node, steps; that of node 0 is not looked at. Pre: links join different nodes, those
+  /// between others than node 0 such as have equal weights. The tables do not depend on the numbers of nodes
+  /// if `rank`, by variable, and the order of links do not.
+  PitTerms(std::vector<PitLink> links, std::vector<std::int64_t> weight, std::span<const std::uint32_t> rank);
 
-  /// Adds the terms to a level, in steps a pit, with auxiliary variables, which cost nothing, after those
+  /// Adds the terms to a level, with auxiliary variables, which cost nothing, after those
   /// that are there. The sum less `constant` is the least over their labels.
   template <std::size_t Criteria>
   void add_to(Labelling<Criteria>& labelling, std::size_t level) const;
   /// Steps for plateaus that no link can reach.
   [[nodiscard]] std::int64_t constant() const;
-  [[nodiscard]] std::int64_t count(std::span<const Label> label) const;
-
   enum class Outcome : std::uint8_t { Exact, Refined, TooLarge };
   /// Whether the terms count the pits of this labelling exactly; if not, they will, unless that takes a table
   /// that is too large.
@@ -47,6 +46,7 @@ class PitTerms {
   bool merge(std::span<const std::uint32_t> nodes);
 
   std::vector<PitLink> links_;
+  std::vector<std::int64_t> weight_;                  ///< by node
   std::vector<std::vector<std::uint32_t>> links_at_;  ///< by node
   std::vector<std::uint32_t> group_;                  ///< by node
   std::vector<std::vector<std::uint32_t>> nodes_of_;  ///< by group; empty: none

@@ -45,8 +45,7 @@ class TermScan {
 
   [[nodiscard]] double left_on_rim(const Progress& progress) const;
   [[nodiscard]] double of_triangle(const Declaration& declaration, const Face& face) const {
-    return declaration.triangle != nullptr ? declaration.triangle(face, faces_.scale)
-                                           : declaration.against_reference(face, faces_.scale, *reference_);
+    return declaration.of_triangle(face, faces_.scale, faces_.tin, reference_);
   }
   template <class Body, class Sink>
   void scan_edges(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
@@ -64,7 +63,7 @@ void TermScan::run(const Declaration& declaration, std::span<const std::uint32_t
                    const Progress& progress) const {
   if (declaration.of_angle != nullptr) {
     scan_edges<Vector3>(declaration, first, sink, progress);
-  } else if (declaration.edge != nullptr) {
+  } else if (declaration.traits.coupling == Coupling::Edge) {
     scan_edges<Face>(declaration, first, sink, progress);
   } else {
     scan_triangles(declaration, sink, progress);

@@ -58,6 +58,10 @@ PlainMesh plain_mesh_of(const Subject& subject) {
     EdgeKind& kind = mesh.constraints[std::minmax(edge.a.value(), edge.b.value())];
     kind = kind | edge.kind;
   }
+  mesh.on_valley.assign(mesh.xy.size(), false);
+  for (const auto& [edge, kind] : mesh.constraints) {
+    if (has(kind, EdgeKind::Valley)) mesh.on_valley[edge.first] = mesh.on_valley[edge.second] = true;
+  }
   return mesh;
 }
 

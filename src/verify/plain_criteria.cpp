@@ -6,6 +6,7 @@
 #include "verify/plain_criteria.hpp"
 
 #include "verify/exact.hpp"
+#include "verify/plain_water.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -37,7 +38,7 @@ struct Known {
   bool counts;
 };
 
-constexpr std::array<Known, 16> kKnown = {
+constexpr std::array<Known, 19> kKnown = {
     {{"local-minima", Depends::OnPlateau, Combines::Sum, false, true},
      {"normal-angle-sum", Depends::OnEdge, Combines::Sum, false, false},
      {"normal-angle-squares", Depends::OnEdge, Combines::Sum, false, false},
@@ -53,7 +54,10 @@ constexpr std::array<Known, 16> kKnown = {
      {"vertical-error", Depends::OnTriangle, Combines::Sum, false, false},
      {"convex-vertices", Depends::OnVertex, Combines::Sum, true, true},
      {"mixed-vertices", Depends::OnVertex, Combines::Sum, false, true},
-     {"max-degree", Depends::OnVertex, Combines::Largest, false, true}}};
+     {"max-degree", Depends::OnVertex, Combines::Largest, false, true},
+     {"pit-depth", Depends::OnPlateau, Combines::Sum, false, false},
+     {"valley-triangles", Depends::OnTriangle, Combines::Sum, false, true},
+     {"draining-valleys", Depends::OnEdge, Combines::Sum, true, false}}};
 
 const Known* find_known(const std::string& name) {
   const auto* known =
@@ -147,6 +151,7 @@ Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const PlainCrite
   }
   if (name == "max-area") return doubled_area(mesh, scale, a, b, c) / 2 / criterion.term_unit;
   if (name == "flat-triangles") return mesh.z[a] == mesh.z[b] && mesh.z[b] == mesh.z[c] ? 1 : 0;
+  if (name == "valley-triangles") return mesh.on_valley[a] && mesh.on_valley[b] && mesh.on_valley[c] ? 1 : 0;
   const Extended first = corner_angle(mesh, a, b, c), second = corner_angle(mesh, b, c, a),
                  third = corner_angle(mesh, c, a, b);
   return name == "max-angle" ? std::max({first, second, third}) : std::min({first, second, third});
@@ -155,7 +160,9 @@ Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const PlainCrite
 Extended edge_part(const PlainMesh& mesh, PlainScale scale, const std::string& name, Index a, Index b,
                    Index l, Index r) {
   constexpr Extended kLargestRatio = 0x1p20L;
-  if (name == "edge-length") {
+  const bool of_valleys = name == "draining-valleys";
+  if (of_valleys && !look_at_valley(mesh, a, b, l, r).drains) return 0;
+  if (of_valleys || name == "edge-length") {
     return std::hypot(Extended{mesh.at(b).x} - mesh.at(a).x, Extended{mesh.at(b).y} - mesh.at(a).y) *
            scale.horizontal;
   }
@@ -337,8 +344,21 @@ std::size_t count_uncertain_bends(const PlainMesh& mesh) {
   return count;
 }
 
+/// Length of drawn valleys of which the same holds.
+Extended uncertain_valleys(const PlainMesh& mesh, PlainScale scale) {
+  Extended length = 0;
+  for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
+    if (look_at_valley(mesh, a, b, l, r).certain) return;
+    length += edge_part(mesh, scale, "edge-length", a, b, l, r);
+  });
+  return length;
+}
+
 PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion) {
-  if (criterion.depends == Depends::OnPlateau) return {static_cast<Extended>(count_pits(mesh).interior), 0};
+  if (criterion.depends == Depends::OnPlateau) {
+    if (criterion.parts.front().name == "pit-depth") return pit_depth(mesh, scale);
+    return {static_cast<Extended>(count_pits(mesh).interior), 0};
+  }
   std::vector<std::int64_t> terms;
   if (has_vertex_part(criterion)) {
     for (const PlainRing& ring : rings_of(mesh)) terms.push_back(vertex_term(criterion, ring));
@@ -367,6 +387,7 @@ PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterio
                                         : static_cast<Extended>(terms.size()) * parts / kSteps +
                                               std::abs(sum / kSteps) * 1e-12L;
   for (const PlainCriterion::Part& part : criterion.parts) {
+    if (part.name == "draining-valleys") tolerance += std::abs(part.weight) * uncertain_valleys(mesh, scale);
     if (part.name != "convex-edges" && part.name != "convex-vertices" && part.name != "mixed-vertices")
       continue;
     const Extended ends = part.name == "convex-edges" ? 1 : 2;

@@ -28,6 +28,7 @@ class PlainLinks {
   PlainLinks(std::vector<PlainLink> links, std::size_t node_count);
 
   [[nodiscard]] std::span<const PlainLink> all() const { return links_; }
+  [[nodiscard]] std::size_t node_count() const { return at_.size(); }
 
   /// Whether every labelling that connects all that the links connect makes one of the literals true: without
   /// their links, the ends of the first one's link are apart. Complexity: the smaller side.

@@ -29,6 +29,7 @@ struct PlainMesh {
   /// Across side i (corner i to corner i + 1) of each triangle: the other triangle, or kNone.
   std::vector<std::array<Index, 3>> across;
   std::map<std::pair<Index, Index>, EdgeKind> constraints;  ///< lower index first
+  std::vector<bool> on_valley;                              ///< by vertex: at a drawn valley
 
   [[nodiscard]] Point2 at(Index v) const { return xy[v]; }
   [[nodiscard]] bool constrained(Index a, Index b) const {

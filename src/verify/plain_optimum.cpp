@@ -4,15 +4,16 @@
 // that
 //    criteria are compared in the order of their priority. The first component counts broken conditions: a
 //    clause of the pits, a value above that of a largest-value criterion before.
-// 2. Pits come first or are not checked: their fewest number is that of connected plateaus, and the condition
-// on
-//    what follows are clauses, more of them until the labels found keep all.
+// 2. Pits come first or are not checked: their fewest number is that of connected plateaus, their least depth
+//    that with all diagonals at once, and the condition on what follows are clauses, more of them until the
+//    labels found keep all.
 // 3. Sums: the least cost of all sums so far. Largest values: no labelling keeps every value below the bound.
 #include "verify/plain_optimum.hpp"
 
 #include "verify/plain_pits.hpp"
 #include "verify/plain_proof.hpp"
 #include "verify/plain_solver.hpp"
+#include "verify/plain_water.hpp"
 
 #include <fmt/format.h>
 
@@ -35,7 +36,8 @@ class BoundChecker {
         claims_(claims),
         proof_(proof),
         progress_(progress),
-        plateaus_(problem.delaunay, problem.quadrilaterals) {}
+        plateaus_(problem.delaunay, problem.quadrilaterals),
+        condition_(&plateaus_) {}
 
   Finding check(const CriterionClaim& claim) {
     Finding finding{claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked, {}};
@@ -70,15 +72,26 @@ class BoundChecker {
 
  private:
   void check_pits(const CriterionClaim& claim, Finding& finding) {
-    if (level_ > 0) {
+    if (level_ > leading_) {
       finding.detail = reason_ = "pits are proved again only where they come first";
       return;
     }
-    const auto fewest = static_cast<double>(plateaus_.fewest());
-    judge(claim.bound <= fewest && (!claim.optimal || claim.result <= fewest), "plateaus and diagonals allow",
-          fewest, finding);
-    clauses_ = plateaus_.plateau_clauses();
+    ++leading_;
     with_pits_ = true;
+    if (claim.name == "pit-depth") {
+      spills_ = find_spill_links(problem_.delaunay, problem_.quadrilaterals);
+      condition_ = &*spills_;
+      const PlainValue least = pit_depth(problem_.delaunay, problem_.scale, problem_.quadrilaterals);
+      const long double most = least.value + least.tolerance;
+      judge(claim.bound <= most && (!claim.optimal || claim.result <= most), "heights and diagonals allow",
+            least.value, finding);
+    } else {
+      // Least depths leave the fewest pits too, so the number is the same after them.
+      const auto fewest = static_cast<double>(plateaus_.fewest());
+      judge(claim.bound <= fewest && (!claim.optimal || claim.result <= fewest),
+            "plateaus and diagonals allow", fewest, finding);
+    }
+    clauses_ = condition_->plateau_clauses();
   }
 
   static void judge(bool holds, const char* what, long double value, Finding& finding) {
@@ -96,7 +109,7 @@ class BoundChecker {
       const auto optimum =
           minimise(problem_.quadrilaterals.size(), std::move(factors), kWidthLimit, progress_);
       if (!optimum || !with_pits_) return optimum ? std::optional(optimum->cost) : std::nullopt;
-      std::vector<Factor> more = plateaus_.broken_clauses(optimum->labels);
+      std::vector<Factor> more = condition_->broken_clauses(optimum->labels);
       if (more.empty()) return optimum->cost;
       clauses_.insert(clauses_.end(), more.begin(), more.end());
     }
@@ -185,7 +198,8 @@ class BoundChecker {
     for (std::size_t i = 0; i < stage.criteria; ++i) {
       const auto criterion = plain_criterion(claims_[i].name, problem_.reference);
       const bool last = i + 1 == stage.criteria;
-      if (!criterion || (i > 0 && criterion->depends == Depends::OnPlateau) || place + 2 > Cost{}.size()) {
+      if (!criterion || (i >= leading_ && criterion->depends == Depends::OnPlateau) ||
+          place + 2 > Cost{}.size()) {
         taken.bound.fault = "the proof has a stage for " + claims_[i].name + ", which no stage can bound";
         return;
       }
@@ -201,7 +215,7 @@ class BoundChecker {
       }
     }
     taken.bound = take_steps(stage, problem_.quadrilaterals.size(), terms_of(problem_, taken.components),
-                             places, with_pits_ && !stage.alone ? &plateaus_ : nullptr, progress_);
+                             places, with_pits_ && !stage.alone ? condition_ : nullptr, progress_);
     if (taken.bound.fault.empty() && taken.bound.bound[0] != 0) {
       taken.bound.fault = "the proof takes labels that break a condition";
     }
@@ -273,6 +287,9 @@ class BoundChecker {
   const Proof* proof_;
   Progress& progress_;
   PlainPlateaus plateaus_;
+  std::optional<PlainPlateaus> spills_;
+  const PlainPlateaus* condition_;       ///< what pits that come first ask of the links
+  std::size_t leading_ = 0;              ///< criteria of pits that come first
   std::map<std::size_t, Stage> stages_;  ///< by their number in the proof
   std::string reason_;                   ///< why nothing more can be checked
   std::size_t level_ = 0;

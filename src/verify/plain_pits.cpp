@@ -70,6 +70,9 @@ PlainPlateaus::PlainPlateaus(const PlainMesh& delaunay, std::span<const PlainQua
   links_ = PlainLinks(std::move(links), n + 1);
 }
 
+PlainPlateaus::PlainPlateaus(PlainLinks links, Index drained)
+    : links_(std::move(links)), drained_(drained), is_plateau_(links_.node_count(), true) {}
+
 std::size_t PlainPlateaus::fewest() const {
   std::vector<Index> parent(is_plateau_.size());
   std::iota(parent.begin(), parent.end(), Index{0});

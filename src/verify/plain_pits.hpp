@@ -15,10 +15,13 @@ namespace thalweg::verify {
 class PlainPlateaus {
  public:
   PlainPlateaus(const PlainMesh& delaunay, std::span<const PlainQuadrilateral> quadrilaterals);
+  /// Other nodes and links, of which `drained` has an outlet.
+  PlainPlateaus(PlainLinks links, Index drained);
 
-  /// Between nodes: plateaus that are not drained, and one node for all that is.
+  /// Between nodes: plateaus that are not drained, and one node for all that is; or what was given.
   [[nodiscard]] const PlainLinks& links() const { return links_; }
-  /// No labelling has fewer pits: the sets of plateaus that all diagonals together leave undrained.
+  /// No labelling has fewer pits: the sets of plateaus that all diagonals together leave undrained. Pre: the
+  /// nodes are plateaus.
   [[nodiscard]] std::size_t fewest() const;
   /// For each plateau that some diagonal connects: one of them must be chosen where pits are fewest.
   [[nodiscard]] std::vector<Factor> plateau_clauses() const;
@@ -30,7 +33,7 @@ class PlainPlateaus {
   [[nodiscard]] std::vector<Factor> clauses(const std::vector<Index>& set_of_node) const;
 
   PlainLinks links_;
-  Index drained_ = 0;             ///< the node of all that is drained; nodes before it are plateaus
+  Index drained_ = 0;             ///< the node of all that is drained
   std::vector<bool> is_plateau_;  ///< nodes that stand for an undrained plateau
 };
 

@@ -28,7 +28,10 @@ enum class Criterion : std::uint8_t {
   VerticalError,
   ConvexVertices,
   MixedVertices,
-  MaxDegree
+  MaxDegree,
+  PitDepth,
+  ValleyTriangles,
+  DrainingValleys
 };
 
 /// What one term of a criterion depends on.
@@ -36,7 +39,7 @@ enum class Coupling : std::uint8_t {
   OneTriangle,  ///< a triangle
   Edge,         ///< the two triangles at an interior edge, so at most two quadrilaterals
   VertexStar,   ///< the triangles at a vertex, so all quadrilaterals that have it as a corner
-  Plateau       ///< all edges that leave a connected set of vertices of equal height
+  Plateau       ///< all edges that leave a connected set of vertices that are not higher than some height
 };
 
 /// How terms become the value.
@@ -80,6 +83,8 @@ struct Objective {
   [[nodiscard]] bool is(Criterion criterion) const {
     return !is_weighted && parts.front().criterion == criterion;
   }
+  /// Whether it is of pits: where it comes first it is a condition on which diagonals connect what.
+  [[nodiscard]] bool is_of_pits() const;
   /// Whether its value is that of one term, the worst.
   [[nodiscard]] bool is_extreme() const;
   /// Whether a part measures against heights from elsewhere (`OptimizeOptions::reference`).
@@ -92,7 +97,7 @@ struct Objective {
 
 /// Reads a criterion's name, or a weighted sum such as `2*edge-length+0.5*normal-angle-sum-convex-edges`.
 /// Throws: Error{Usage} if a name is unknown or repeated, a weight is no finite number or 0, or a part is no
-/// sum (a count is one; a largest or smallest value and local-minima are not).
+/// sum of terms (a count is one; a largest or smallest value, local-minima and pit-depth are not).
 Objective parse_objective(std::string_view text);
 
 }  // namespace thalweg

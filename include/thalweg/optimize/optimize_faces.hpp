@@ -45,8 +45,8 @@ struct FaceOptimizeResult {
 /// triangulations that the faces leave.
 ///
 /// Pre: `delaunay` is the constrained Delaunay triangulation on the surface for which the faces were found.
-/// Throws: Error{Usage} as optimize_first_order; {Unsupported} for a criterion whose terms are neither of
-/// triangles nor of edges; {SizeLimit} if a face has more triangulations than the options allow and the
+/// Throws: Error{Usage} as optimize_first_order; {Unsupported} for a criterion of vertices and for depths of
+/// pits; {SizeLimit} if a face has more triangulations than the options allow and the
 /// Delaunay triangulation is none of them; {Cancelled}.
 /// Complexity: triangulations of all faces; then linear but for pieces that stay wide. Runs on all threads.
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,

@@ -32,7 +32,7 @@
 ///                                   remains true then. Without V2: V's own cost. W is the next new number,
 ///                                   or one that was introduced so
 ///     share W V LEVEL AMOUNT        moves an amount from the cost of V+ to that of W+, in steps of 2^-32 of
-///                                   the LEVEL-th criterion but local-minima, counted from 0
+///                                   the LEVEL-th criterion but those of pits, counted from 0
 ///     conflict V V ...              costs of other variables count as the least they can be; these are
 ///                                   eliminated in this order: what remains are implications from x to not x
 ///                                   and back, one value below the bound

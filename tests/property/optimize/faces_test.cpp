@@ -24,11 +24,11 @@ constexpr double kHorizontal = 2, kVertical = 0.5;
 constexpr test::Steps kTolerance =
     64;  // steps: of a sum of some dozens of terms that plain code rounds otherwise
 
+/// Constraint edges become valleys.
 Tin with_heights(const Tin& ground, std::vector<Triangle> triangles, const std::vector<double>& heights) {
-  return {{ground.points().begin(), ground.points().end()},
-          heights,
-          std::move(triangles),
-          ground.constraint_edges()};
+  std::vector<ConstraintEdge> valleys = ground.constraint_edges();
+  for (ConstraintEdge& edge : valleys) edge.kind = edge.kind | EdgeKind::Valley;
+  return {{ground.points().begin(), ground.points().end()}, heights, std::move(triangles), valleys};
 }
 
 std::vector<test::Steps> value_of(const Tin& tin, const std::vector<Criterion>& criteria) {
@@ -180,6 +180,8 @@ const std::vector<std::vector<Criterion>> kPriorities = {
     {Criterion::NormalAngleSum, Criterion::LocalMinima},
     {Criterion::LocalMinima, Criterion::NormalAngleMax, Criterion::EdgeLength},
     {Criterion::ConvexEdges, Criterion::MinAngle, Criterion::LocalMinima},
+    {Criterion::ValleyTriangles, Criterion::DrainingValleys},
+    {Criterion::LocalMinima, Criterion::DrainingValleys, Criterion::ValleyTriangles},
 };
 
 TEST(OptimizeFaces, IsTheBestOfAll) {

@@ -91,6 +91,8 @@ TEST(Invariance, OrderAndThreads) {
     expect_invariant(surface, {}, random);
     expect_invariant(surface, {.criteria = {Criterion::LocalMinima}}, random);
     expect_invariant(surface, {.criteria = {Criterion::NormalAngleSum, Criterion::LocalMinima}}, random);
+    expect_invariant(surface, {.criteria = {Criterion::PitDepth}}, random);
+    expect_invariant(surface, {.criteria = {Criterion::NormalAngleSum, Criterion::PitDepth}}, random);
     expect_invariant(surface, {.width_limit = 1, .effort = 1'000'000}, random);
   }
 }

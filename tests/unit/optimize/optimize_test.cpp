@@ -49,6 +49,18 @@ TEST(Optimize, DrainsAPitThroughTheOtherDiagonal) {
   EXPECT_TRUE(line.optimal);
 }
 
+TEST(Optimize, LowersASpill) {
+  // Apart, the pit at 2 spills at 5 into that at 1, which spills over the ring at 9.
+  const OptimizeResult result =
+      run(basin(1, 5, 2, 5, 9), {.criteria = {Criterion::PitDepth}, .vertical_metres_per_unit = 0.5});
+  EXPECT_EQ(result.flipped, std::vector<std::uint8_t>{1});
+  EXPECT_EQ(result.criteria[0].unit, "metres");
+  EXPECT_EQ(result.criteria[0].delaunay, 0.5 * (3 + 8));
+  EXPECT_EQ(result.criteria[0].result, 0.5 * 8);
+  EXPECT_EQ(result.criteria[0].bound, 0.5 * 8);
+  EXPECT_TRUE(result.criteria[0].optimal);
+}
+
 TEST(Optimize, UnitesLevelPits) {
   EXPECT_EQ(run(basin(1, 5, 1, 5, 9), kPits).criteria[0].result, 1);
 }
