@@ -147,13 +147,19 @@ class LayerWriter {
                     "; free some space or choose another place; no partial file is left");
   }
 
-  void create_layer(const char* name, OGRwkbGeometryType type, std::initializer_list<Field> fields) {
+  /// Fields for attributes follow the others.
+  void create_layer(const char* name, OGRwkbGeometryType type, std::initializer_list<Field> fields,
+                    std::span<const TinAttribute> attributes = {}) {
     CPLStringList options;
     for (const std::string& option : format_.layer_options) options.AddString(option.c_str());
     layer_ = dataset_->CreateLayer(name, reference_ ? &*reference_ : nullptr, type, options.List());
     if (layer_ == nullptr) fail();
     for (const Field& field : fields) {
       OGRFieldDefn definition(field.name, field.type);
+      if (layer_->CreateField(&definition) != OGRERR_NONE) fail();
+    }
+    for (const TinAttribute& attribute : attributes) {
+      OGRFieldDefn definition(attribute.name.c_str(), OFTReal);
       if (layer_->CreateField(&definition) != OGRERR_NONE) fail();
     }
     feature_ = std::make_unique<OGRFeature>(layer_->GetLayerDefn());
@@ -166,6 +172,16 @@ class LayerWriter {
       job_.progress.advance(static_cast<double>(row) / static_cast<double>(count));
     feature_->SetFID(OGRNullFID);
     if (layer_->CreateFeature(feature_.get()) != OGRERR_NONE) fail();
+  }
+
+  void set_attributes(int first_field, std::span<const TinAttribute> attributes, std::size_t row) {
+    for (const TinAttribute& attribute : attributes) {
+      if (std::isnan(attribute.values[row])) {
+        feature_->SetFieldNull(first_field++);
+      } else {
+        feature_->SetField(first_field++, attribute.values[row]);
+      }
+    }
   }
 
   // Gives the layer's one feature a geometry, to be refilled for each row.
@@ -203,7 +219,8 @@ class LayerWriter {
 
   void write_edges() {
     create_layer("edges", wkbLineString25D,
-                 {{"a", OFTInteger64}, {"b", OFTInteger64}, {"kind", OFTString}, {"kind_bits", OFTInteger}});
+                 {{"a", OFTInteger64}, {"b", OFTInteger64}, {"kind", OFTString}, {"kind_bits", OFTInteger}},
+                 job_.view.edge_attributes);
     OGRLineString* const line = adopt(std::make_unique<OGRLineString>());
     line->setNumPoints(2);
     std::size_t row = 0;
@@ -217,13 +234,15 @@ class LayerWriter {
       feature_->SetField(1, static_cast<GIntBig>(b.value()));
       feature_->SetField(2, kind_words(tin_.kind(h)).c_str());
       feature_->SetField(3, static_cast<int>(tin_.kind(h)));
+      set_attributes(4, job_.view.edge_attributes, row);
       create_feature(row++, tin_.edge_count());
     }
   }
 
   void write_vertices() {
     create_layer("vertices", wkbPoint25D,
-                 {{"id", OFTInteger64}, {"is_pit", OFTInteger}, {"source", OFTString}});
+                 {{"id", OFTInteger64}, {"is_pit", OFTInteger}, {"source", OFTString}},
+                 job_.view.vertex_attributes);
     OGRPoint* const point = adopt(std::make_unique<OGRPoint>(0, 0, 0));
     for (std::size_t v = 0; v < tin_.vertex_count(); ++v) {
       point->setX(xy_[v].x);
@@ -232,6 +251,7 @@ class LayerWriter {
       feature_->SetField(0, static_cast<GIntBig>(v));
       if (!job_.view.is_pit.empty()) feature_->SetField(1, job_.view.is_pit[v] != 0 ? 1 : 0);
       if (!job_.view.vertex_source.empty()) feature_->SetField(2, source_word(job_.view.vertex_source[v]));
+      set_attributes(3, job_.view.vertex_attributes, v);
       create_feature(v, tin_.vertex_count());
     }
   }

@@ -2,7 +2,8 @@
 //
 // One mesh topology, Mesh2, of nodes and triangles; heights are Mesh2_node_z; the CRS is the variable
 // projected_coordinate_system, with its WKT and code. UGRID has no place for marked edges: the constraint
-// edges stand in two variables of their own, which other programs pass over.
+// edges stand in two variables of their own, which other programs pass over. Values of vertices and edges are
+// data on nodes and edges; edges are listed only for those.
 #include "io/netcdf_file.hpp"
 #include "io/write_steps.hpp"
 
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -50,10 +53,57 @@ class UgridWriter {
       put<int>(kinds_, edges_.size(), 1, 0,
                [&](std::size_t e, int* out) { *out = static_cast<int>(edges_[e].kind); });
     }
+    write_attributes();
     file_.close();
   }
 
  private:
+  void write_attributes() {
+    const Tin& tin = job_.view.tin;
+    if (!job_.view.edge_attributes.empty()) {
+      std::size_t i = 0;  // rows come in order
+      put<int>(edge_nodes_, tin.edge_count(), 2, 0, [&](std::size_t, int* out) {
+        while (!tin.represents_edge(HalfedgeId{i})) ++i;
+        out[0] = static_cast<int>(tin.origin(HalfedgeId{i}).value());
+        out[1] = static_cast<int>(tin.target(HalfedgeId{i++}).value());
+      });
+    }
+    const auto put_all = [&](std::span<const TinAttribute> attributes, const std::vector<int>& variables) {
+      for (std::size_t a = 0; a < attributes.size(); ++a) {
+        const std::vector<double>& values = attributes[a].values;
+        put<double>(variables[a], values.size(), 1, 0,
+                    [&](std::size_t row, double* out) { *out = values[row]; });
+      }
+    };
+    put_all(job_.view.vertex_attributes, vertex_values_);
+    put_all(job_.view.edge_attributes, edge_values_);
+  }
+
+  void define_attributes(int mesh, int nodes) {
+    const auto define_all = [&](std::span<const TinAttribute> attributes, int elements, const char* location,
+                                std::vector<int>& variables) {
+      for (const TinAttribute& attribute_of : attributes) {
+        const std::string name = std::string("Mesh2_") + location + "_" + attribute_of.name;
+        const int id = variable(name.c_str(), NC_DOUBLE, {elements});
+        attribute(id, "long_name", attribute_of.description);
+        attribute(id, "units", attribute_of.unit);
+        const double none = std::numeric_limits<double>::quiet_NaN();
+        file_.check(nc_put_att_double(file_.id(), id, "_FillValue", NC_DOUBLE, 1, &none));
+        place(id, location);
+        variables.push_back(id);
+      }
+    };
+    define_all(job_.view.vertex_attributes, nodes, "node", vertex_values_);
+    if (job_.view.edge_attributes.empty()) return;
+    const int edges = dimension("nMesh2_edge", job_.view.tin.edge_count());
+    edge_nodes_ = variable("Mesh2_edge_nodes", NC_INT, {edges, dimension("Two", 2)});
+    attribute(edge_nodes_, "cf_role", "edge_node_connectivity");
+    attribute(edge_nodes_, "start_index", 0);
+    attribute(mesh, "edge_node_connectivity", "Mesh2_edge_nodes");
+    attribute(mesh, "edge_dimension", "nMesh2_edge");
+    define_all(job_.view.edge_attributes, edges, "edge", edge_values_);
+  }
+
   int dimension(const char* name, std::size_t size) {
     int id = 0;
     file_.check(nc_def_dim(file_.id(), name, size, &id));
@@ -115,6 +165,7 @@ class UgridWriter {
       attribute(kinds_, "long_name",
                 "1 breakline, 2 ridge, 4 valley, 8 boundary, 16 hole, 32 lake, added up");
     }
+    define_attributes(mesh, nodes);
     define_crs();
     file_.check(nc_enddef(file_.id()));
   }
@@ -175,7 +226,8 @@ class UgridWriter {
   std::vector<ConstraintEdge> edges_;
   CrsInfo crs_;
   NetcdfFile file_;
-  int x_ = 0, y_ = 0, z_ = 0, faces_ = 0, orders_ = 0, constraints_ = 0, kinds_ = 0;
+  int x_ = 0, y_ = 0, z_ = 0, faces_ = 0, orders_ = 0, constraints_ = 0, kinds_ = 0, edge_nodes_ = 0;
+  std::vector<int> vertex_values_, edge_values_;
 };
 
 }  // namespace

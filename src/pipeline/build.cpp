@@ -10,6 +10,7 @@
 //    vertices too, so it is a triangle of the new ground.)
 // 5. If asked for, leave out the vertices that few others stand for (reduce_terrain.cpp).
 // 6. Optimise and write (surface.cpp).
+#include "pipeline/condition_tin.hpp"
 #include "pipeline/memory_estimate.hpp"
 #include "pipeline/plane_survey.hpp"
 #include "pipeline/reduce_terrain.hpp"
@@ -133,6 +134,12 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   Report& report = built.report;
   report.command = "build";
   report.engine = engine_name(config.ground.engine);
+  check_condition(config.condition, config.labelling, output);
+  if (!config.condition.steps.empty() && (config.max_error_m || config.max_points)) {
+    throw Error(ErrorCode::Usage,
+                "--condition changes heights, so that no error of a simplification could be told; simplify "
+                "first, then condition what is left with thalweg optimize --condition");
+  }
   RunOutputs outputs(output);
 
   progress.start_phase("read");
@@ -181,8 +188,8 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
     report.timings_s.simplify = watch.lap();
   }
 
-  finish_run(std::move(terrain), {plane, read.crs, config.labelling, output, outputs, watch}, built,
-             progress);
+  finish_run(std::move(terrain),
+             {plane, read.crs, config.labelling, config.condition, output, outputs, watch}, built, progress);
   return built;
 }
 

@@ -2,6 +2,7 @@
 
 /// The options of the main job by name, for all faces that let users name them.
 
+#include "pipeline/condition_options.hpp"
 #include "pipeline/labelling_options.hpp"
 #include "pipeline/source_options.hpp"
 
@@ -18,6 +19,7 @@ namespace thalweg::cli {
 struct BuildArguments {
   SourceArguments sources;
   LabellingArguments labelling;
+  ConditionArguments condition;
   BuildConfig config;  ///< what is set at once: read, ground, snap
   double max_edge_m = 0;
   double max_error_m = 0;
@@ -26,7 +28,7 @@ struct BuildArguments {
 };
 
 /// Adds the options that say what is built, not where it goes: sources of lines and areas, how they are read,
-/// ground, simplification, labelling.
+/// ground, simplification, labelling, conditioning.
 void add_build_options(CLI::App& command, BuildArguments& arguments);
 /// The configuration but for points and output. Pre: the command has parsed. Throws: Error{Usage,
 /// Unsupported}.

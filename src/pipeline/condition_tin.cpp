@@ -1,7 +1,5 @@
-// Metres to the TIN's unit and back around `condition_heights`; the triangles stay.
+// Metres to the TIN's unit and back around `condition_heights`.
 #include "pipeline/condition_tin.hpp"
-
-#include "pipeline/drain_layers.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/write_tin.hpp>
@@ -12,9 +10,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <utility>
 
 namespace thalweg {
+
+std::string condition_word(ConditionStep step) {
+  switch (step) {
+    case ConditionStep::MonotoneValleys:
+      return "monotone-valleys";
+    case ConditionStep::Fill:
+      return "fill";
+    case ConditionStep::Breach:
+      return "breach";
+  }
+  return {};
+}
 
 std::vector<ConditionStep> parse_condition(const std::string& text) {
   constexpr std::array kSteps = {ConditionStep::MonotoneValleys, ConditionStep::Fill, ConditionStep::Breach};
@@ -36,31 +48,82 @@ std::vector<ConditionStep> parse_condition(const std::string& text) {
   return steps;
 }
 
-ConditionedTin condition_tin(const LoadedTin& loaded, std::span<const VertexId> outlets,
-                             const DrainConfig& config, Progress& progress) {
+ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<const VertexId> outlets,
+                             const ConditionConfig& config, Progress& progress) {
   progress.start_phase("condition heights");
-  const double metres = loaded.plane.vertical_metres_per_unit();
-  ConditionOptions options{.steps = config.condition, .norm = config.condition_norm, .max_change = {}};
-  if (config.condition_max_m) options.max_change = *config.condition_max_m / metres;
-  ConditionResult result = condition_heights(loaded.tin, outlets, options, progress);
+  ConditionOptions options{.steps = config.steps, .norm = config.norm, .max_change = {}};
+  if (config.max_m) options.max_change = *config.max_m / metres_per_unit;
+  ConditionResult result = condition_heights(tin, outlets, options, progress);
   ConditionedTin conditioned;
   ConditionReport& report = conditioned.report;
   report = {.changed = result.changes.size(),
             .filled = result.filled,
             .breached = result.breached,
             .left = result.left,
-            .pits_before = find_pits(loaded.tin).interior};
+            .pits_before = find_pits(tin).interior};
   for (const HeightChange& change : result.changes) {
-    const double size = std::abs(change.after - change.before) * metres;
+    const double size = std::abs(change.after - change.before) * metres_per_unit;
     report.sum_m += size;
     report.max_m = std::max(report.max_m, size);
   }
-  conditioned.tin =
-      Tin({loaded.tin.points().begin(), loaded.tin.points().end()}, std::move(result.heights),
-          {loaded.tin.triangles().begin(), loaded.tin.triangles().end()}, loaded.tin.constraint_edges());
+  conditioned.tin = with_heights(tin, std::move(result.heights));
   conditioned.changes = std::move(result.changes);
   progress.advance(1);
   return conditioned;
+}
+
+Tin with_heights(const Tin& tin, std::vector<double> heights) {
+  return {{tin.points().begin(), tin.points().end()},
+          std::move(heights),
+          {tin.triangles().begin(), tin.triangles().end()},
+          tin.constraint_edges()};
+}
+
+void check_condition(const ConditionConfig& config, const LabellingConfig& labelling,
+                     const OutputConfig& output) {
+  if (config.steps.empty() && !output.changes_path.empty()) {
+    throw Error(ErrorCode::Usage, "--condition-layer needs --condition; say what to change");
+  }
+  if (!config.changes_pits() || labelling.criteria.empty() || labelling.criteria.front().is_of_pits()) return;
+  throw Error(ErrorCode::Usage, "--condition fill or breach removes pits, which " +
+                                    labelling.criteria.front().name() +
+                                    " may bring back; put local-minima or pit-depth first in --optimize");
+}
+
+std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, std::span<const Point2> written,
+                                       std::span<const VertexId> number) {
+  std::vector<ReportChange> list;
+  for (const HeightChange& change : changes) {
+    const VertexId v = change.vertex;
+    list.push_back({.vertex = (number.empty() ? v : number[v.index()]).index(),
+                    .x = written[v.index()].x,
+                    .y = written[v.index()].y,
+                    .before = change.before,
+                    .after = change.after,
+                    .step = condition_word(change.step)});
+  }
+  std::sort(list.begin(), list.end(),
+            [](const ReportChange& a, const ReportChange& b) { return a.vertex < b.vertex; });
+  return list;
+}
+
+FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& plane) {
+  FeatureLayer layer{.name = "conditioned",
+                     .geometry = FeatureGeometry::Point,
+                     .has_z = true,
+                     .fields = {{"vertex", FieldType::Integer},
+                                {"z_before", FieldType::Real},
+                                {"z_after", FieldType::Real},
+                                {"change_m", FieldType::Real},
+                                {"step", FieldType::Text}},
+                     .features = {}};
+  const double metres = plane.vertical_metres_per_unit();
+  for (const ReportChange& change : changes) {
+    layer.features.push_back({{{{{plane.without_jump({change.x, change.y})}, {change.after}}}},
+                              {static_cast<std::int64_t>(change.vertex), change.before, change.after,
+                               (change.after - change.before) * metres, change.step}});
+  }
+  return layer;
 }
 
 void write_conditioned(const LoadedTin& loaded, const DrainConfig& config, PendingOutputs& outputs,

@@ -1,10 +1,13 @@
 #pragma once
 
-/// Conditioning of a TIN that was read.
+/// Conditioning of a TIN in its plane.
 
 #include "pipeline/loaded_tin.hpp"
 
 #include <thalweg/io/pending_outputs.hpp>
+#include <thalweg/io/write_features.hpp>
+#include <thalweg/pipeline/build.hpp>
+#include <thalweg/pipeline/condition.hpp>
 #include <thalweg/pipeline/drain.hpp>
 
 #include <span>
@@ -18,10 +21,25 @@ struct ConditionedTin {
   ConditionReport report;
 };
 
-/// The TIN with the heights that `config.condition` asks for. Pre: it asks for something. Throws:
-/// Error{Cancelled}.
-ConditionedTin condition_tin(const LoadedTin& loaded, std::span<const VertexId> outlets,
-                             const DrainConfig& config, Progress& progress);
+/// The TIN with the heights that `config` asks for. `metres_per_unit` of heights. Pre: it asks for something.
+/// Throws: Error{Cancelled}.
+ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<const VertexId> outlets,
+                             const ConditionConfig& config, Progress& progress);
+
+/// The same triangles on other heights.
+Tin with_heights(const Tin& tin, std::vector<double> heights);
+
+/// Refuses conditioning that what else is asked for would undo, and a layer of changes without any. Throws:
+/// Error{Usage}.
+void check_condition(const ConditionConfig& config, const LabellingConfig& labelling,
+                     const OutputConfig& output);
+
+/// Changes under the ids of the outputs, in their order. `written`, `number`: by vertex, its place and its id
+/// there; no numbers: the same.
+std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, std::span<const Point2> written,
+                                       std::span<const VertexId> number);
+/// Points with their new height; heights in the TIN's unit.
+FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& plane);
 
 /// Writes the TIN to `config.conditioned_path` aside. Throws: as write_tin.
 void write_conditioned(const LoadedTin& loaded, const DrainConfig& config, PendingOutputs& outputs,

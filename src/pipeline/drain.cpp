@@ -7,6 +7,8 @@
 // 3. Write all layers aside, then the report; rename together.
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/drain_layers.hpp"
+#include "pipeline/flow_attributes.hpp"
+#include "pipeline/water_json.hpp"
 #include "terrain/triangle_grid.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -30,13 +32,21 @@ namespace {
 constexpr double kNetworkShare = 0.001;  // of the TIN, where no area is asked for
 constexpr double kMostSeeds = 1e7;
 
+/// In the TIN's CRS, which is also that of a source that declares none.
 std::vector<Point2> read_points(const std::vector<SourceSpec>& sources, const CrsInfo& crs,
                                 Progress& progress) {
-  if (sources.empty()) return {};
-  ReadOptions options;
-  options.heights = HeightRule::Optional;
-  if (crs.known) options.target_crs = crs.wkt;
-  return read_survey(sources, {}, options, progress).survey.points.xy;
+  std::vector<Point2> points;
+  for (const SourceSpec& source : sources) {
+    ReadOptions options;
+    options.heights = HeightRule::Optional;
+    ReadResult read = read_survey({&source, 1}, {}, options, progress);
+    if (crs.known && read.crs.known) {
+      options.target_crs = crs.wkt;
+      read = read_survey({&source, 1}, {}, options, progress);
+    }
+    points.insert(points.end(), read.survey.points.xy.begin(), read.survey.points.xy.end());
+  }
+  return points;
 }
 
 double distance(Point2 a, Point2 b) {
@@ -152,6 +162,10 @@ void write_report(const std::string& path, const std::string& target, const Drai
 void check_outputs(const DrainConfig& config, Overwrite mode) {
   check_features_path(config.output);
   PendingOutputs().add(config.output, mode);
+  if (!config.mesh_path.empty()) {
+    check_mesh_path(config.mesh_path);
+    PendingOutputs().add(config.mesh_path, mode);
+  }
   if (config.conditioned_path.empty()) return;
   check_write_options(config.conditioned_path, {});
   PendingOutputs().add(config.conditioned_path, mode);
@@ -171,8 +185,9 @@ void check_tin(const Tin& tin, const std::string& path) {
 /// Changes heights if that is asked for. The triangles stay, so what finds them goes on to hold.
 std::vector<HeightChange> condition(LoadedTin& loaded, std::span<const VertexId> outlets,
                                     const DrainConfig& config, DrainReport& report, Progress& progress) {
-  if (config.condition.empty()) return {};
-  ConditionedTin conditioned = condition_tin(loaded, outlets, config, progress);
+  if (config.condition.steps.empty()) return {};
+  ConditionedTin conditioned =
+      condition_tin(loaded.tin, loaded.plane.vertical_metres_per_unit(), outlets, config.condition, progress);
   loaded.tin = std::move(conditioned.tin);
   report.conditioned = conditioned.report;
   return std::move(conditioned.changes);
@@ -211,7 +226,7 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   for (std::size_t i = 0; i < outlets.size(); ++i) {
     report.outlets[i].catchment_area_m2 = area_m2[flow.sink_of(outlets[i]).index()];
   }
-  report.consistency = check_consistency(flow, scale);
+  report.consistency = check_consistency(loaded.tin, scale);
 
   report.min_area_m2 = config.min_area_m2.value_or(kNetworkShare * report.area_m2);
   const std::vector<Reach> network = find_network(flow, spilling, report.min_area_m2 / square, progress);
@@ -225,8 +240,12 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   std::vector<FeatureLayer> layers = {
       pit_layer(loaded, table), path_layer(loaded, flow, paths), network_layer(loaded, flow, network),
       catchment_layer(loaded, flow, catchments, area_m2), inconsistency_layer(loaded, report.consistency)};
-  if (report.conditioned) layers.push_back(change_layer(loaded, changes));
+  if (report.conditioned)
+    layers.push_back(change_layer(list_changes(changes, loaded.written_points(), {}), loaded.plane));
   write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
+  if (!config.mesh_path.empty()) {
+    write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets}, config, outputs, progress);
+  }
   if (!config.conditioned_path.empty()) write_conditioned(loaded, config, outputs, progress);
   if (to_file) write_report(report_path, config.report_path, report);
   progress.check();
@@ -246,12 +265,6 @@ std::string to_json(const DrainReport& r) {
   for (const DrainReport::OutletPlace& outlet : r.outlets) {
     outlets.push_back({{"distance_m", outlet.distance_m}, {"catchment_area_m2", outlet.catchment_area_m2}});
   }
-  Json rising = Json::array();
-  for (const Inconsistency& place : r.consistency.places) {
-    if (place.kind != Inconsistency::Kind::ValleyRises) continue;
-    rising.push_back({{"from", place.from.value()}, {"to", place.to.value()}, {"rise_m", place.rise_m}});
-  }
-  const Consistency& c = r.consistency;
   Json json = {
       {"tin",
        {{"path", r.input}, {"vertices", r.vertices}, {"triangles", r.triangles}, {"area_m2", r.area_m2}}},
@@ -269,27 +282,9 @@ std::string to_json(const DrainReport& r) {
       {"pits_passed", r.pits_passed},
       {"catchments", r.catchments},
       {"broken_cycles", r.broken_cycles},
-      {"consistency",
-       {{"valley_edges", c.valley_edges},
-        {"valley_length_m", c.valley_length_m},
-        {"draining_length_m", c.draining_length_m},
-        {"rising_edges", c.rising_edges},
-        {"rise_sum_m", c.rise_sum_m},
-        {"rise_max_m", c.rise_max_m},
-        {"rising", rising},
-        {"ridge_edges", c.ridge_edges},
-        {"crossed_ridge_edges", c.crossed_ridge_edges},
-        {"undrawn_valley_edges", c.undrawn_valley_edges},
-        {"triangles_on_valleys", c.triangles_on_valleys},
-        {"flat_triangles", c.flat_triangles},
-        {"flat_edges", c.flat_edges}}},
+      {"consistency", consistency_json(r.consistency)},
       {"notes", r.notes}};
-  if (r.conditioned) {
-    json["conditioned"] = {{"heights", r.conditioned->changed}, {"sum_m", r.conditioned->sum_m},
-                           {"max_m", r.conditioned->max_m},     {"pits_before", r.conditioned->pits_before},
-                           {"filled", r.conditioned->filled},   {"breached", r.conditioned->breached},
-                           {"pits_left", r.conditioned->left}};
-  }
+  if (r.conditioned) json["conditioned"] = condition_json(*r.conditioned);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

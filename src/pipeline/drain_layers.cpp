@@ -200,35 +200,4 @@ FeatureLayer inconsistency_layer(const LoadedTin& loaded, const Consistency& con
   return layer;
 }
 
-std::string condition_word(ConditionStep step) {
-  switch (step) {
-    case ConditionStep::MonotoneValleys:
-      return "monotone-valleys";
-    case ConditionStep::Fill:
-      return "fill";
-    case ConditionStep::Breach:
-      return "breach";
-  }
-  return {};
-}
-
-FeatureLayer change_layer(const LoadedTin& loaded, std::span<const HeightChange> changes) {
-  FeatureLayer layer{.name = "conditioned",
-                     .geometry = FeatureGeometry::Point,
-                     .has_z = true,
-                     .fields = {{"vertex", FieldType::Integer},
-                                {"z_before", FieldType::Real},
-                                {"z_after", FieldType::Real},
-                                {"change_m", FieldType::Real},
-                                {"step", FieldType::Text}},
-                     .features = {}};
-  const double metres = loaded.plane.vertical_metres_per_unit();
-  for (const HeightChange& change : changes) {
-    layer.features.push_back({{{{{written(loaded, change.vertex)}, {change.after}}}},
-                              {whole(change.vertex.index()), change.before, change.after,
-                               (change.after - change.before) * metres, condition_word(change.step)}});
-  }
-  return layer;
-}
-
 }  // namespace thalweg

@@ -6,7 +6,6 @@
 
 #include <thalweg/io/write_features.hpp>
 #include <thalweg/terrain/catchments.hpp>
-#include <thalweg/terrain/condition.hpp>
 #include <thalweg/terrain/consistency.hpp>
 #include <thalweg/terrain/network.hpp>
 #include <thalweg/terrain/pit_table.hpp>
@@ -28,10 +27,4 @@ FeatureLayer network_layer(const LoadedTin& loaded, const SurfaceFlow& flow, std
 FeatureLayer catchment_layer(const LoadedTin& loaded, const SurfaceFlow& flow,
                              std::span<const Catchment> catchments, std::span<const double> area_m2);
 FeatureLayer inconsistency_layer(const LoadedTin& loaded, const Consistency& consistency);
-/// Points with their new height; `before` in the TIN's unit.
-FeatureLayer change_layer(const LoadedTin& loaded, std::span<const HeightChange> changes);
-
-/// The word for a step on the command line and in layers.
-std::string condition_word(ConditionStep step);
-
 }  // namespace thalweg

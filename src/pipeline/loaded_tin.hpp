@@ -6,6 +6,7 @@
 
 #include <thalweg/mesh/tin.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ struct LoadedTin {
   CrsInfo crs;
   Plane plane;
   std::vector<Point2> written;  ///< empty: the plane's own
+
+  [[nodiscard]] std::span<const Point2> written_points() const {
+    return written.empty() ? tin.points() : std::span<const Point2>(written);
+  }
 };
 
 /// Throws: what reading and projecting throw.

@@ -3,6 +3,7 @@
 // The vertices and constraint edges are triangulated anew (constrained Delaunay); an edge of the outline that
 // is missing there is added as a boundary constraint and the triangulation repeated. The surface is what lies
 // inside of the outline: a flood from the inner side of every outline edge that does not cross the outline.
+#include "pipeline/condition_tin.hpp"
 #include "pipeline/plane.hpp"
 #include "pipeline/surface.hpp"
 
@@ -96,6 +97,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   Report& report = built.report;
   report.command = "optimize";
   report.engine = engine_name(TriangulationEngine::Flat);
+  check_condition(config.condition, config.labelling, config.output);
   RunOutputs outputs(config.output);
 
   progress.start_phase("read");
@@ -116,7 +118,8 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   }
   progress.advance(1);
 
-  finish_run(std::move(terrain), {plane, crs, config.labelling, config.output, outputs, watch}, built,
+  finish_run(std::move(terrain),
+             {plane, crs, config.labelling, config.condition, config.output, outputs, watch}, built,
              progress);
   return built;
 }

@@ -1,4 +1,6 @@
 // The report as JSON and as text. Both are views of the same struct; nothing is computed here.
+#include "pipeline/water_json.hpp"
+
 #include <thalweg/pipeline/report.hpp>
 
 #include <fmt/format.h>
@@ -139,6 +141,26 @@ Json pits_json(const ReportPits& pits) {
   return {{"interior", pits.interior}, {"boundary", pits.boundary}, {"lake", pits.lake}};
 }
 
+Json conditioned_json(const ReportConditioned& conditioned) {
+  Json json = condition_json(conditioned.figures);
+  json["steps"] = conditioned.steps;
+  Json& changes = json["changes"] = Json::array();
+  for (const ReportChange& c : conditioned.changes) {
+    changes.push_back({{"vertex", c.vertex},
+                       {"x", c.x},
+                       {"y", c.y},
+                       {"z_before", c.before},
+                       {"z_after", c.after},
+                       {"step", c.step}});
+  }
+  return json;
+}
+
+Json consistency_pair(const ReportConsistency& consistency) {
+  return {{"delaunay", consistency_json(consistency.delaunay)},
+          {"result", consistency_json(consistency.result)}};
+}
+
 }  // namespace
 
 std::string version() {
@@ -164,6 +186,8 @@ std::string to_json(const Report& report) {
       {"arithmetic", "each term is rounded once to an integer multiple of 2^-32 of its unit; sums are exact"},
       {"criteria", criteria_json(report.criteria)},
       {"pits", {{"delaunay", pits_json(report.pits_delaunay)}, {"result", pits_json(report.pits_result)}}},
+      {"consistency", report.consistency ? consistency_pair(*report.consistency) : Json(nullptr)},
+      {"conditioned", report.conditioned ? conditioned_json(*report.conditioned) : Json(nullptr)},
       {"timings_s",
        {{"read", s.read},
         {"triangulate", s.triangulate},
@@ -262,6 +286,35 @@ void add_structure(Rows rows, const Report& r) {
   rows.count("width", r.first_order.width);
 }
 
+void add_water(std::string& text, const Report& r) {
+  auto out = std::back_inserter(text);
+  if (r.consistency) {
+    const auto row = [&](const char* name, const auto& value) {
+      fmt::format_to(out, "  {:<26}{:>16}{:>16}\n", name, value(r.consistency->delaunay),
+                     value(r.consistency->result));
+    };
+    if (r.consistency->result.valley_edges > 0) {
+      row("drawn valleys that drain", [](const Consistency& c) {
+        return fmt::format("{:.1f} %", 100 * c.draining_length_m / c.valley_length_m);
+      });
+      row("valley edges that rise", [](const Consistency& c) { return c.rising_edges; });
+      row("triangles on valleys", [](const Consistency& c) { return c.triangles_on_valleys; });
+    }
+    if (r.consistency->result.ridge_edges > 0) {
+      row("ridge edges crossed", [](const Consistency& c) { return c.crossed_ridge_edges; });
+    }
+  }
+  if (!r.conditioned) return;
+  const ConditionReport& c = r.conditioned->figures;
+  fmt::format_to(out, "Conditioned: {} heights changed, by {:.2f} m together, {:.2f} m at most", c.changed,
+                 c.sum_m, c.max_m);
+  if (c.pits_before > 0) {
+    fmt::format_to(out, "; of {} pits {} filled, {} breached, {} left", c.pits_before, c.filled, c.breached,
+                   c.left);
+  }
+  text += '\n';
+}
+
 }  // namespace
 
 std::string to_text(const Report& r) {
@@ -284,6 +337,7 @@ std::string to_text(const Report& r) {
     fmt::format_to(out, "  {:<26}{:>16}{:>16}\n", "lakes without outlet", r.pits_delaunay.lake,
                    r.pits_result.lake);
   }
+  add_water(text, r);
   const PhaseSeconds& s = r.timings_s;
   if (!r.engine.empty() && r.engine != "flat") text += fmt::format("Triangulated by {}\n", r.engine);
   text += "Seconds\n";

@@ -1,29 +1,24 @@
 // From ground to files.
 //
-// 1. The first-order quadrilaterals are found on the whole ground (orders count what the points and
-// constraint
-//    edges say, whether or not a triangle is part of the surface). Those of which both triangles are surface,
-//    and which are strictly convex in the written coordinates too, may be flipped.
-// 2. The optimiser labels them; the flipped TIN is checked in the plane and in the written coordinates, and
-// its
-//    pits are counted again by plain code, before anything is written.
+// 1. Diagonals are chosen (choose_diagonals.cpp).
+// 2. The chosen TIN is checked in the plane and in the written coordinates, and its pits are counted again by
+//    plain code, before anything is written.
 // 3. The outcome gets the ids of the outputs; all files are written aside and renamed together.
 #include "pipeline/surface.hpp"
 
+#include "pipeline/choose_diagonals.hpp"
+#include "pipeline/condition_tin.hpp"
 #include "pipeline/digest.hpp"
 #include "pipeline/higher_order.hpp"
-#include "pipeline/proof_file.hpp"
-#include "pipeline/reference.hpp"
-#include "pipeline/std_order_error.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geodesy/area.hpp>
-#include <thalweg/geometry/predicates.hpp>
 #include <thalweg/io/picture.hpp>
+#include <thalweg/io/write_features.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/mesh/validate.hpp>
-#include <thalweg/order/order_tin.hpp>
+#include <thalweg/terrain/consistency.hpp>
 #include <thalweg/terrain/pit_changes.hpp>
 #include <thalweg/terrain/pits.hpp>
 #include <thalweg/terrain/statistics.hpp>
@@ -35,7 +30,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <memory>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -64,6 +59,10 @@ RunOutputs::RunOutputs(const OutputConfig& config) {
   if (!config.problem_path.empty() && std::filesystem::path(config.problem_path).extension() != ".cfn") {
     throw Error(ErrorCode::Usage, "--dump-problem writes .cfn, not '" + config.problem_path + "'");
   }
+  if (!config.changes_path.empty()) {
+    check_features_path(config.changes_path);
+    PendingOutputs().add(config.changes_path, mode);  // its writer adds it again
+  }
   report = reserve(config.report_path);
   picture = reserve(config.picture_path);
   problem = reserve(config.problem_path);
@@ -71,36 +70,6 @@ RunOutputs::RunOutputs(const OutputConfig& config) {
 }
 
 namespace {
-
-std::vector<std::uint32_t> surface_indices(const std::vector<bool>& keep) {
-  std::vector<std::uint32_t> index(keep.size(), TriangleId::kInvalid);
-  std::uint32_t next = 0;
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (keep[t]) index[t] = next++;
-  }
-  return index;
-}
-
-bool convex_as_written(const Quadrilateral& q, std::span<const Point2> written) {
-  if (written.empty()) return true;
-  const auto at = [&](VertexId v) { return written[v.index()]; };
-  return orientation(at(q.s), at(q.u), at(q.t)) > 0 && orientation(at(q.t), at(q.v), at(q.s)) > 0;
-}
-
-// Triangles keep their order and their first corner when others are dropped, so halfedges map by triangle.
-std::vector<Quadrilateral> on_surface(std::span<const Quadrilateral> found, const Terrain& terrain) {
-  const std::vector<std::uint32_t> index = surface_indices(terrain.keep);
-  std::vector<Quadrilateral> kept;
-  for (Quadrilateral q : found) {
-    const TriangleId left = Tin::triangle_of(q.diagonal);
-    const TriangleId right = Tin::triangle_of(terrain.ground.twin(q.diagonal));
-    if (!terrain.keep[left.index()] || !terrain.keep[right.index()]) continue;
-    if (!convex_as_written(q, terrain.continuous)) continue;
-    q.diagonal = Tin::halfedge(TriangleId{index[left.index()]}, q.diagonal.index() % 3);
-    kept.push_back(q);
-  }
-  return kept;
-}
 
 template <class Value>
 std::vector<Value> renumbered(std::span<const Value> values, std::span<const VertexId> number) {
@@ -196,121 +165,6 @@ void note_assumptions(const CrsInfo& crs, Report& report) {
 
 namespace {
 
-/// The optimised TIN and what it came from.
-struct Labelled {
-  Tin delaunay;
-  std::uint32_t delaunay_order = 0;  ///< largest order of its triangles
-  std::vector<Quadrilateral> quadrilaterals;
-  std::unique_ptr<const Reference> reference;
-  OptimizeOptions options;
-  OptimizeResult result;
-  Tin tin;
-  std::vector<std::array<VertexId, 2>> new_diagonals;
-  std::optional<ReportHigherOrder> higher_order;
-  std::vector<std::uint16_t> orders;  ///< by triangle, above order 1; else they follow from the new diagonals
-  std::size_t barred = 0;             ///< quadrilaterals whose other diagonal is too far from points left out
-};
-
-// Under Std constraint edges give the constrained Delaunay triangulation an order of its own, and up to 1 no
-// triangulation has a lower one: what is asked for may not exist.
-std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labelling, Progress& progress) {
-  if (labelling.definition != OrderDefinition::Std || labelling.order > 1) return 0;
-  const TinOrders orders =
-      find_tin_orders(terrain.ground, {.definition = OrderDefinition::Std, .mode = terrain.mode}, progress);
-  if (orders.max_order <= labelling.order) return orders.max_order;
-  throw no_triangulation(terrain, labelling, progress);
-}
-
-void choose_first_order(Labelled& labelled, const Terrain& terrain, const RunContext& run,
-                        Progress& progress) {
-  std::optional<ProofFile> proof;
-  if (!run.outputs.proof.empty()) {
-    proof.emplace(run.outputs.proof, run.output.proof_path,
-                  ProofSubject{labelled.delaunay, terrain.written, terrain.number, labelled.quadrilaterals,
-                               run.labelling});
-    labelled.options.proof = &proof->stages();
-  }
-  labelled.result =
-      optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
-  labelled.options.proof = nullptr;
-  if (proof) proof->finish();
-  std::vector<HalfedgeId> flips;
-  for (std::size_t q = 0; q < labelled.quadrilaterals.size(); ++q) {
-    if (labelled.result.flipped[q] == 0) continue;
-    flips.push_back(labelled.quadrilaterals[q].diagonal);
-    labelled.new_diagonals.push_back({labelled.quadrilaterals[q].s, labelled.quadrilaterals[q].t});
-  }
-  progress.check();
-  labelled.tin = flip_edges(labelled.delaunay, flips);
-}
-
-void choose_higher_order(Labelled& labelled, const SurfaceFaces& faces, const LabellingConfig& labelling,
-                         Progress& progress) {
-  HigherOrderChoice choice =
-      choose_triangulations(labelled.delaunay, faces, labelled.options, labelling, progress);
-  labelled.result.criteria = std::move(choice.criteria);
-  labelled.tin = std::move(choice.tin);
-  labelled.new_diagonals = std::move(choice.new_edges);
-  labelled.orders = std::move(choice.orders);
-  labelled.higher_order = std::move(choice.figures);
-}
-
-// Takes the ground out of the terrain.
-Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
-                          Progress& progress) {
-  Labelled labelled;
-  if (run.labelling.by_faces() && !run.outputs.proof.empty()) {
-    throw Error(ErrorCode::Unsupported,
-                "--proof is written for orders 0 and 1 only, and under definitions up to sees-opp");
-  }
-  if (std::find(terrain.keep.begin(), terrain.keep.end(), true) == terrain.keep.end()) {
-    throw Error(ErrorCode::EmptyInput,
-                "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
-  }
-  seconds.triangulate += run.watch.lap();
-
-  progress.start_phase("orders");
-  labelled.delaunay_order = delaunay_order(terrain, run.labelling, progress);
-  if (run.labelling.order == 1 && !run.labelling.by_faces()) {
-    labelled.quadrilaterals = on_surface(
-        find_quadrilaterals(terrain.ground, {.definition = run.labelling.definition, .mode = terrain.mode},
-                            progress),
-        terrain);
-    labelled.barred = labelled.quadrilaterals.size();
-    bar_diagonals(terrain.ground, terrain.left_out, terrain.error_limit, labelled.quadrilaterals, progress);
-    labelled.barred -= labelled.quadrilaterals.size();
-  }
-  SurfaceFaces faces;
-  if (run.labelling.by_faces()) {
-    labelled.delaunay = keep_triangles(terrain.ground, terrain.keep);
-    faces = find_surface_faces(terrain, labelled.delaunay, run.labelling, progress);
-    terrain.ground = {};
-  } else {
-    labelled.delaunay = keep_triangles(std::move(terrain.ground), terrain.keep);
-  }
-  progress.advance(1);
-  seconds.orders = run.watch.lap();
-
-  progress.start_phase("optimize");
-  labelled.options = {.criteria = run.labelling.criteria,
-                      .horizontal_metres_per_unit = run.plane.metres_per_unit(),
-                      .vertical_metres_per_unit = run.plane.vertical_metres_per_unit()};
-  if (run.labelling.effort) labelled.options.effort = *run.labelling.effort;
-  if (run.labelling.reference) {
-    const ReferencePoints reference = read_reference(*run.labelling.reference, run.crs, run.plane, progress);
-    labelled.reference = std::make_unique<const Reference>(reference.points, reference.heights);
-    labelled.options.reference = labelled.reference.get();
-  }
-  if (run.labelling.by_faces()) {
-    choose_higher_order(labelled, faces, run.labelling, progress);
-  } else {
-    choose_first_order(labelled, terrain, run, progress);
-  }
-  progress.advance(1);
-  seconds.optimize = run.watch.lap();
-  return labelled;
-}
-
 void describe_result(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
                      Report& report) {
   ReportTin tin = describe_tin(labelled.tin, run.plane, terrain.written);
@@ -336,6 +190,40 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
     report.simplification->rms_error_m = {delaunay.rms * unit, result.rms * unit};
   }
   report.criteria = describe_criteria(labelled.result);
+}
+
+bool draws_water(const Tin& tin) {
+  const std::span<const EdgeKind> kinds = tin.arrays().kinds;
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](EdgeKind kind) { return has(kind, EdgeKind::Valley | EdgeKind::Ridge); });
+}
+
+/// Whether drawn valleys and ridges hold, and which heights changed, under the ids of the outputs.
+void describe_water(const Labelled& labelled, const Terrain& terrain, const RunContext& run, Report& report) {
+  if (draws_water(labelled.tin)) {
+    report.consistency = {check_consistency(labelled.delaunay, run.plane.scale()),
+                          check_consistency(labelled.tin, run.plane.scale())};
+    for (Consistency* consistency : {&report.consistency->delaunay, &report.consistency->result}) {
+      for (Inconsistency& place : consistency->places) {
+        if (terrain.number.empty()) continue;
+        place.from = terrain.number[place.from.index()];
+        place.to = terrain.number[place.to.index()];
+      }
+    }
+  }
+  if (!labelled.conditioned) return;
+  const std::span<const Point2> written =
+      terrain.written.empty() ? labelled.tin.points() : std::span<const Point2>(terrain.written);
+  report.conditioned = {{}, *labelled.conditioned, list_changes(labelled.changes, written, terrain.number)};
+  for (const ConditionStep step : run.condition.steps) {
+    report.conditioned->steps.push_back(condition_word(step));
+  }
+}
+
+void write_changes(const Report& report, const RunContext& run, Progress& progress) {
+  write_features(run.output.changes_path, std::array{change_layer(report.conditioned->changes, run.plane)},
+                 run.crs.wkt, run.outputs.pending, run.output.overwrite ? Overwrite::Yes : Overwrite::No,
+                 progress);
 }
 
 // What is written, under the ids of the outputs.
@@ -462,6 +350,7 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
   describe_result(labelled, terrain, run, report);
   report.pits_delaunay = describe_pits(pits_before);
   report.pits_result = describe_pits(pits_after);
+  describe_water(labelled, terrain, run, report);
   progress.advance(1);
   report.timings_s.check = run.watch.lap();
 
@@ -473,6 +362,7 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
                                std::move(pits_after), progress);
   outcome.built.crs = run.crs;
   outcome.built.report = std::move(built.report);
+  if (!run.output.changes_path.empty()) write_changes(outcome.built.report, run, progress);
   if (!run.output.path.empty()) write_tin_of(outcome.built, run.output, run.outputs.pending, progress);
   if (!run.outputs.picture.empty()) draw_result(outcome, run, progress);
   built = std::move(outcome.built);

@@ -56,6 +56,7 @@ struct RunContext {
   const Plane& plane;
   const CrsInfo& crs;
   const LabellingConfig& labelling;
+  const ConditionConfig& condition;
   const OutputConfig& output;
   RunOutputs& outputs;
   Stopwatch& watch;

@@ -92,6 +92,12 @@ void read_source_claims(const Json& report, const Plane& plane, verify::Sources&
     conflict.z_used = c.at("z_used").get<double>();
     sources.conflicts->push_back(conflict);
   }
+  for (const Json& c : read<Json>(report, "/conditioned/changes").value_or(Json::array())) {
+    sources.conditioned.push_back(
+        {.xy = plane.to_plane(Point2{c.at("x").get<double>(), c.at("y").get<double>()}),
+         .before = c.at("z_before").get<double>(),
+         .after = c.at("z_after").get<double>()});
+  }
   sources.positions_left_out = read<std::size_t>(report, "/input/outside_boundary").value_or(0) +
                                read<std::size_t>(report, "/tin/vertices_left_out").value_or(0);
   if (const auto error = read<double>(report, "/simplification/largest_error_m/result")) {

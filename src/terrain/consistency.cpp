@@ -1,8 +1,8 @@
-// Drawn lines against the surface: edges by what falls to them (flow_graph), valley lines (valley_lines) for
-// which way they run.
-#include "terrain/flow_graph.hpp"
+// Drawn lines against the surface: edges by how their triangles fall, valley lines (valley_lines) for which
+// way they run.
 #include "terrain/valley_lines.hpp"
 
+#include <thalweg/geometry/slope.hpp>
 #include <thalweg/terrain/consistency.hpp>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace {
 
 class Checker {
  public:
-  Checker(const SurfaceFlow& flow, const MetricScale& scale)
-      : flow_(flow), graph_(flow.graph()), tin_(graph_.tin), scale_(scale), valleys_(trace_valleys(tin_)) {}
+  Checker(const Tin& tin, const MetricScale& scale)
+      : tin_(tin), scale_(scale), valleys_(trace_valleys(tin_)) {}
 
   Consistency run() {
     for (std::size_t i = 0; i < tin_.halfedge_count(); ++i) {
@@ -24,7 +24,8 @@ class Checker {
     }
     for (std::size_t i = 0; i < tin_.triangle_count(); ++i) {
       const Triangle& t = tin_.triangle(TriangleId{i});
-      result_.flat_triangles += graph_.level(TriangleId{i}) ? 1 : 0;
+      result_.flat_triangles +=
+          tin_.height(t[0]) == tin_.height(t[1]) && tin_.height(t[1]) == tin_.height(t[2]) ? 1 : 0;
       const bool all =
           std::all_of(t.begin(), t.end(), [&](VertexId v) { return valleys_.on_valley[v.index()] != 0; });
       result_.triangles_on_valleys += all ? 1 : 0;
@@ -35,9 +36,19 @@ class Checker {
   }
 
  private:
+  /// As fall_across, of the halfedge's triangle.
+  [[nodiscard]] int fall(HalfedgeId h) const {
+    const VertexId a = tin_.origin(h), b = tin_.target(h), c = tin_.apex(h);
+    return fall_across(tin_.point(a), tin_.height(a), tin_.point(b), tin_.height(b), tin_.point(c),
+                       tin_.height(c));
+  }
+
   void look_at(HalfedgeId h) {
     const VertexId a = tin_.origin(h), b = tin_.target(h);
-    const bool drawn = has(tin_.kind(h), EdgeKind::Valley), valley = flow_.is_valley(h);
+    const HalfedgeId twin = tin_.twin(h);
+    const int here = fall(h), there = twin.valid() ? fall(twin) : -1;
+    const bool valley = here >= 0 && there >= 0 && here + there > 0 && tin_.height(a) != tin_.height(b);
+    const bool drawn = has(tin_.kind(h), EdgeKind::Valley);
     result_.flat_edges += tin_.height(a) == tin_.height(b) ? 1 : 0;
     result_.undrawn_valley_edges += valley && !drawn ? 1 : 0;
     if (drawn) {
@@ -49,10 +60,7 @@ class Checker {
     }
     if (!has(tin_.kind(h), EdgeKind::Ridge)) return;
     ++result_.ridge_edges;
-    const HalfedgeId twin = tin_.twin(h);
-    if (!twin.valid()) return;
-    const Fall here = graph_.fall[h.index()], there = graph_.fall[twin.index()];
-    if (!((here == Fall::Out && there == Fall::In) || (here == Fall::In && there == Fall::Out))) return;
+    if (!twin.valid() || here * there >= 0) return;
     ++result_.crossed_ridge_edges;
     crossed_.push_back({.kind = Inconsistency::Kind::RidgeCrossed, .from = a, .to = b});
   }
@@ -69,8 +77,6 @@ class Checker {
     }
   }
 
-  const SurfaceFlow& flow_;
-  const FlowGraph& graph_;
   const Tin& tin_;
   const MetricScale& scale_;
   Consistency result_;
@@ -80,8 +86,8 @@ class Checker {
 
 }  // namespace
 
-Consistency check_consistency(const SurfaceFlow& flow, const MetricScale& scale) {
-  return Checker(flow, scale).run();
+Consistency check_consistency(const Tin& tin, const MetricScale& scale) {
+  return Checker(tin, scale).run();
 }
 
 }  // namespace thalweg

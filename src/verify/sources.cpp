@@ -316,7 +316,12 @@ class SourceChecker {
 
   [[nodiscard]] std::string height_fault(Index v, const std::map<Index, std::set<double>>& used) const {
     const Said& said = said_[v];
-    const double z = subject_.heights[v];
+    const auto changed = conditioned_.find(v);
+    if (changed != conditioned_.end() && changed->second->after != subject_.heights[v]) {
+      return fmt::format("vertex {} at {} has height {}, not {} as the report says it was conditioned to", v,
+                         text(subject_.points[v]), subject_.heights[v], changed->second->after);
+    }
+    const double z = changed != conditioned_.end() ? changed->second->before : subject_.heights[v];
     std::vector<Interval> heights = said.lines;
     if (heights.empty()) {
       for (const double point : said.points) heights.push_back({point, point});
@@ -345,6 +350,9 @@ class SourceChecker {
       const auto v = vertex_near(conflict.xy, std::max(kMicrometre, sources_.snap + sources_.pixel));
       if (v) used[*v].insert(conflict.z_used);
     }
+    for (const Sources::Conditioned& change : sources_.conditioned) {
+      if (const auto v = vertex_near(change.xy, kMicrometre)) conditioned_[*v] = &change;
+    }
     Faults faults;
     std::size_t count = 0;
     for (Index v = 0; v < said_.size(); ++v) {
@@ -353,7 +361,10 @@ class SourceChecker {
       if (const std::string fault = height_fault(v, used); !fault.empty()) faults.add(fault);
     }
     if (faults.count() == 0) {
-      return {"heights are those of the sources", Verdict::Holds, fmt::format("at {} vertices", count)};
+      return {"heights are those of the sources", Verdict::Holds,
+              conditioned_.empty() ? fmt::format("at {} vertices", count)
+                                   : fmt::format("at {} vertices, of which {} were conditioned since", count,
+                                                 conditioned_.size())};
     }
     return {"heights are those of the sources", Verdict::Broken,
             fmt::format("{} are not: {}", faults.count(), faults.text())};
@@ -368,6 +379,7 @@ class SourceChecker {
   std::map<Point2, Index> at_;
   PlainLakes lakes_;
   std::vector<Said> said_;  ///< by vertex
+  std::map<Index, const Sources::Conditioned*> conditioned_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // thalweg drain: pits, flow paths, network and catchments of a TIN.
 #include "command.hpp"
+#include "pipeline/condition_options.hpp"
 
-#include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/drain.hpp>
 
 #include <memory>
@@ -17,40 +17,9 @@ struct Arguments {
   std::vector<std::string> outlets, seeds;
   double seed_spacing = 0;
   double min_area = -1;
-  std::string condition, norm = "sum";
-  double condition_max = -1;
+  ConditionArguments condition;
   Common common;
 };
-
-void add_condition_options(CLI::App& command, Arguments& a) {
-  command.add_option("--condition", a.condition,
-                     "change heights as little as possible first: monotone-valleys (drawn valleys never rise "
-                     "downstream), fill, breach (pits; with both the one that changes less); separated by "
-                     "commas. All that is found and counted is of the changed TIN");
-  command.add_option("--condition-norm", a.norm, "what is least in valleys: changes, or their squares")
-      ->check(CLI::IsMember({"sum", "squares"}))
-      ->default_str("sum");
-  command
-      .add_option("--condition-max", a.condition_max,
-                  "no height changes by more, metres; what would need more is left")
-      ->check(CLI::NonNegativeNumber)
-      ->default_str("none");
-  command.add_option("--conditioned", a.config.conditioned_path,
-                     "TIN file for the changed heights, format by extension");
-}
-
-void take_condition(const CLI::App& command, Arguments& a) {
-  const bool asked = command.count("--condition") > 0;
-  if (!asked &&
-      (command.count("--condition-norm") + command.count("--condition-max") + command.count("--conditioned") >
-       0)) {
-    throw Error(ErrorCode::Usage,
-                "--condition-norm, --condition-max and --conditioned need --condition; say what to change");
-  }
-  if (asked) a.config.condition = parse_condition(a.condition);
-  a.config.condition_norm = a.norm == "sum" ? ChangeNorm::Sum : ChangeNorm::Squares;
-  if (a.condition_max >= 0) a.config.condition_max_m = a.condition_max;
-}
 
 }  // namespace
 
@@ -76,7 +45,14 @@ void add_drain_command(CLI::App& app) {
   command->add_option("--pass-pits", a->config.pass_pits_m, "pits at most so deep are full and spill, metres")
       ->check(CLI::NonNegativeNumber)
       ->default_str("0");
-  add_condition_options(*command, *a);
+  add_condition_options(*command, a->condition,
+                        "Heights change before all else; what is found and counted is of the changed TIN");
+  command->add_option("--conditioned", a->config.conditioned_path,
+                      "TIN file for the changed heights, format by extension");
+  command->add_option(
+      "--mesh", a->config.mesh_path,
+      "mesh with catchments, areas upstream and valleys on its vertices and edges: .nc (UGRID) "
+      "or .gpkg");
   command->add_option("--report", a->config.report_path, "JSON report; - for stdout");
   command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
   add_common_options(*command, a->common);
@@ -85,7 +61,7 @@ void add_drain_command(CLI::App& app) {
     for (const std::string& file : a->seeds) a->config.seeds.push_back(parse_source(file));
     if (a->seed_spacing > 0) a->config.seed_spacing_m = a->seed_spacing;
     if (a->min_area >= 0) a->config.min_area_m2 = a->min_area;
-    take_condition(*command, *a);
+    a->config.condition = parse_condition(*command, a->condition, {"--conditioned"});
     const DrainReport report = drain_tin(a->config, progress_of(a->common));
     if (a->config.report_path == "-" || (a->common.quiet == 0 && a->common.format == Format::Json)) {
       print(to_json(report));

@@ -1,6 +1,7 @@
 // thalweg optimize: the same optimisation on a TIN that exists.
 #include "command.hpp"
 #include "output_options.hpp"
+#include "pipeline/condition_options.hpp"
 #include "pipeline/labelling_options.hpp"
 
 #include <thalweg/pipeline/build.hpp>
@@ -13,6 +14,7 @@ void add_optimize_command(CLI::App& app) {
   struct Arguments {
     OptimizeConfig config;
     LabellingArguments labelling;
+    ConditionArguments condition;
     Common common;
   };
   auto a = std::make_shared<Arguments>();
@@ -21,10 +23,12 @@ void add_optimize_command(CLI::App& app) {
   command->add_option("TIN", a->config.input, "TIN file")->required();
   command->add_option("OUTPUT", a->config.output.path, "TIN file to write")->required();
   add_labelling_options(*command, a->labelling);
+  add_condition_options(*command, a->condition, kWhenConditioned);
   add_output_options(*command, a->config.output);
   add_common_options(*command, a->common);
-  command->callback([a] {
+  command->callback([a, command] {
     a->config.labelling = parse_labelling(a->labelling);
+    a->config.condition = parse_condition(*command, a->condition, {});
     const Report report = optimize_tin(a->config, progress_of(a->common));
     print_report(report, a->common, a->config.output);
   });

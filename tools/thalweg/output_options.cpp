@@ -15,6 +15,8 @@ void add_output_options(CLI::App& command, OutputConfig& output) {
   command.add_option("--picture", output.picture_path, "picture of the result: .png, .svg or .pdf");
   command.add_option("--dump-problem", output.problem_path,
                      "the labelling problem for another solver, toulbar2's .cfn");
+  command.add_option("--condition-layer", output.changes_path,
+                     "GeoPackage for the heights that --condition changes, with old and new value");
   command.add_option("--proof", output.proof_path, "a proof of the criteria's bounds, for thalweg verify");
 }
 

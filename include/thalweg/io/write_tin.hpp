@@ -15,6 +15,15 @@
 
 namespace thalweg {
 
+/// A value for every vertex, or for every edge in the order of the halfedges that represent them; NaN: none.
+/// UGRID and GeoPackage hold such values; other formats do not.
+struct TinAttribute {
+  std::string name;         ///< a word, as "upstream_area"
+  std::string description;  ///< for people, with what NaN says
+  std::string unit;         ///< "m2"; "1" for numbers and codes
+  std::vector<double> values;
+};
+
 /// A TIN and what is known about it. Spans may be empty (not known), else they have one value an element.
 struct TinView {
   const Tin& tin;
@@ -26,6 +35,8 @@ struct TinView {
   std::span<const std::uint8_t> vertex_source = {};  ///< 0 point, 1 line vertex, 2 crossing
   std::span<const std::uint16_t> triangle_orders = {};
   std::span<const Conflict> conflicts = {};
+  std::span<const TinAttribute> vertex_attributes = {};
+  std::span<const TinAttribute> edge_attributes = {};
 };
 
 struct WriteOptions {

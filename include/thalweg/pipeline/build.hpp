@@ -9,6 +9,7 @@
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/optimize/optimize.hpp>
 #include <thalweg/order/definition.hpp>
+#include <thalweg/pipeline/condition.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <cstddef>
@@ -29,6 +30,7 @@ struct OutputConfig {
   std::string picture_path;  ///< .png, .svg, .pdf; empty: none
   std::string problem_path;  ///< labelling problem, .cfn; empty: none
   std::string proof_path;    ///< proof of the criteria's bounds, for verify; empty: none
+  std::string changes_path;  ///< layer of heights that conditioning changed, .gpkg; empty: none
 };
 
 /// How the triangulation is chosen.
@@ -63,6 +65,7 @@ struct BuildConfig {
   std::optional<std::size_t> max_points;
   std::optional<std::size_t> memory_limit_bytes;  ///< refuse what needs more, by estimate
   LabellingConfig labelling;
+  ConditionConfig condition;
   OutputConfig output;
 };
 
@@ -92,6 +95,7 @@ Report build(const BuildConfig& config, Progress& progress);
 struct OptimizeConfig {
   std::string input;
   LabellingConfig labelling;
+  ConditionConfig condition;
   OutputConfig output;
 };
 

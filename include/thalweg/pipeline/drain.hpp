@@ -4,7 +4,7 @@
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/io/source.hpp>
-#include <thalweg/terrain/condition.hpp>
+#include <thalweg/pipeline/condition.hpp>
 #include <thalweg/terrain/consistency.hpp>
 #include <thalweg/terrain/pit_table.hpp>
 
@@ -22,25 +22,13 @@ struct DrainConfig {
   bool overwrite = false;
   std::string report_path;               ///< JSON; empty: none ("-" is the caller's business)
   std::vector<SourceSpec> outlets;       ///< points; water leaves at the nearest corner of the triangle there
-  std::vector<SourceSpec> seeds;         ///< points from which paths are followed
+  std::vector<SourceSpec> seeds;         ///< points from which paths are followed; without CRS, in the TIN's
   std::optional<double> seed_spacing_m;  ///< and a lattice of such points
   std::optional<double> min_area_m2;     ///< of the network; none: a thousandth of the TIN
   double pass_pits_m = 0;                ///< pits that are not deeper are full and spill
-  std::vector<ConditionStep> condition;  ///< none: no height changes
-  ChangeNorm condition_norm = ChangeNorm::Sum;
-  std::optional<double> condition_max_m;
+  ConditionConfig condition;
+  std::string mesh_path;         ///< mesh with attributes of flow, .nc or .gpkg; empty: none
   std::string conditioned_path;  ///< the TIN with its new heights, in a format by extension; empty: none
-};
-
-/// What conditioning changed.
-struct ConditionReport {
-  std::size_t changed = 0;
-  double sum_m = 0;  ///< of the sizes of the changes
-  double max_m = 0;
-  std::size_t filled = 0;  ///< pits
-  std::size_t breached = 0;
-  std::size_t left = 0;
-  std::size_t pits_before = 0;  ///< interior ones
 };
 
 struct DrainReport {
@@ -72,9 +60,6 @@ struct DrainReport {
   std::optional<ConditionReport> conditioned;
   std::vector<std::string> notes;
 };
-
-/// Reads one or more of monotone-valleys, fill, breach, separated by commas. Throws: Error{Usage}.
-std::vector<ConditionStep> parse_condition(const std::string& text);
 
 /// Writes the layers pits, flow_paths, network, catchments and inconsistencies to a GeoPackage. With
 /// `condition` heights are changed first, all else is found on the new ones, and the layer conditioned lists

@@ -3,6 +3,8 @@
 /// What a run tells about itself: the JSON report with fixed keys, and the same as a table for people.
 
 #include <thalweg/mesh/survey.hpp>
+#include <thalweg/pipeline/condition.hpp>
+#include <thalweg/terrain/consistency.hpp>
 
 #include <array>
 #include <cstddef>
@@ -120,6 +122,25 @@ struct ReportSimplification {
   std::array<double, 2> largest_error_m{}, rms_error_m{};  ///< rms: over all source points
 };
 
+/// A height that conditioning changed, under the ids and at the place of the outputs, in the TIN's unit.
+struct ReportChange {
+  std::size_t vertex = 0;
+  double x = 0, y = 0;
+  double before = 0, after = 0;
+  std::string step;
+};
+
+struct ReportConditioned {
+  std::vector<std::string> steps;  ///< as asked for
+  ConditionReport figures;
+  std::vector<ReportChange> changes;
+};
+
+/// Of drawn valleys and ridges, if there are any.
+struct ReportConsistency {
+  Consistency delaunay, result;  ///< places under the ids of the outputs
+};
+
 struct Report {
   std::string command, engine;  ///< the engine is that which triangulated; see `engine_name`
   std::string digest;           ///< see `digest_of`
@@ -133,6 +154,8 @@ struct Report {
   std::vector<ReportCriterion> criteria;
   ReportPits pits_delaunay;
   ReportPits pits_result;
+  std::optional<ReportConsistency> consistency;
+  std::optional<ReportConditioned> conditioned;  ///< if heights were to be changed
   PhaseSeconds timings_s;
   std::size_t peak_memory_bytes = 0;
   std::vector<std::string> notes;  ///< what was assumed or is worth knowing, one sentence each

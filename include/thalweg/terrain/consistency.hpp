@@ -2,8 +2,8 @@
 
 /// Whether drawn valleys and ridges are valleys and ridges of the surface.
 
+#include <thalweg/mesh/tin.hpp>
 #include <thalweg/terrain/statistics.hpp>
-#include <thalweg/terrain/surface_flow.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -41,7 +41,7 @@ struct Consistency {
   std::vector<Inconsistency> places;  ///< rising valleys, then crossed ridges
 };
 
-/// Complexity: linear.
-Consistency check_consistency(const SurfaceFlow& flow, const MetricScale& scale);
+/// Valley edges of the surface are those of `SurfaceFlow::is_valley`, decided exactly. Complexity: linear.
+Consistency check_consistency(const Tin& tin, const MetricScale& scale);
 
 }  // namespace thalweg

@@ -41,6 +41,12 @@ struct Sources {
   /// micrometre or a pixel), and how many positions the surface does not hold.
   std::optional<std::vector<Conflict>> conflicts;
   std::optional<std::size_t> positions_left_out;
+  /// Heights that the report says were changed, with their new value: sources have another one there.
+  struct Conditioned {
+    Point2 xy;
+    double before = 0, after = 0;
+  };
+  std::vector<Conditioned> conditioned;
   /// Of a simplified source: no point is vertically farther from the TIN, in the unit of heights.
   std::optional<double> largest_error;
   /// Whether the surface may end before its sources do: an area bounds it, or triangles at the rim went.

@@ -1,0 +1,30 @@
+#pragma once
+
+/// Options of what changes heights.
+
+#include <thalweg/pipeline/condition.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace thalweg::cli {
+
+/// Values as typed.
+struct ConditionArguments {
+  std::string steps, norm = "sum";
+  double max_m = 0;
+};
+
+/// When heights change in a run that chooses diagonals.
+constexpr const char* kWhenConditioned =
+    "Valleys before diagonals are chosen; pits after that, and then diagonals are chosen again";
+
+/// Adds --condition, --condition-norm and --condition-max. `when`: what the help says of when heights change.
+void add_condition_options(CLI::App& command, ConditionArguments& arguments, const std::string& when);
+/// Throws: Error{Usage}, also for an option that goes with --condition where that is not given; `companions`
+/// are such options of the command.
+ConditionConfig parse_condition(const CLI::App& command, const ConditionArguments& arguments,
+                                const std::vector<std::string>& companions);
+
+}  // namespace thalweg::cli

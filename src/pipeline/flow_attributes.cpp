@@ -1,0 +1,104 @@
+// Values read off the flow: all channels are reaches of a network without a least area; the level of full
+// pits is what filling them would leave.
+#include "pipeline/flow_attributes.hpp"
+
+#include <thalweg/base/error.hpp>
+#include <thalweg/terrain/condition.hpp>
+#include <thalweg/terrain/pits.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+enum class WaterEdge : std::uint8_t { None = 0, Valley = 1, Ridge = 2 };
+
+/// By halfedge: the number of its edge.
+std::vector<std::uint32_t> number_edges(const Tin& tin) {
+  std::vector<std::uint32_t> number(tin.halfedge_count());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (!tin.represents_edge(HalfedgeId{i})) continue;
+    number[i] = next++;
+    if (const HalfedgeId twin = tin.twin(HalfedgeId{i}); twin.valid()) number[twin.index()] = number[i];
+  }
+  return number;
+}
+
+struct Attributes {
+  std::vector<TinAttribute> vertex, edge;
+};
+
+Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progress& progress) {
+  const Tin& tin = loaded.tin;
+  const double metres = loaded.plane.metres_per_unit(), square = metres * metres;
+  const std::size_t vertices = tin.vertex_count(), edges = tin.edge_count();
+  Attributes found;
+  found.vertex = {
+      {"catchment", "number of the catchment, as in the layer catchments of thalweg drain", "1", {}},
+      {"fill_depth", "depth of water if all pits were full", "m", {}},
+      {"upstream_area", "area upstream of the channels that end here", "m2", std::vector(vertices, 0.0)}};
+  found.edge = {
+      {"water", "0 none, 1 valley: both sides drain into it, 2 ridge", "1", std::vector(edges, 0.0)},
+      {"upstream_area", "area upstream of the lower end of a channel", "m2", std::vector(edges, kNoValue)},
+      {"strahler", "Strahler order of a channel", "1", std::vector(edges, kNoValue)}};
+  const ConditionOptions fill{.steps = {ConditionStep::Fill}, .norm = ChangeNorm::Sum, .max_change = {}};
+  const std::vector<double> full = condition_heights(tin, view.outlets, fill, progress).heights;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const SinkId sink = view.flow.sink_of(VertexId{v});
+    found.vertex[0].values.push_back(sink.valid() ? view.end_of_sink[sink.index()] : kNoValue);
+    found.vertex[1].values.push_back((full[v] - tin.heights()[v]) * loaded.plane.vertical_metres_per_unit());
+  }
+  const std::vector<std::uint32_t> number = number_edges(tin);
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const HalfedgeId h{i};
+    if (!tin.represents_edge(h)) continue;
+    const WaterEdge water = view.flow.is_valley(h)  ? WaterEdge::Valley
+                            : view.flow.is_ridge(h) ? WaterEdge::Ridge
+                                                    : WaterEdge::None;
+    found.edge[0].values[number[i]] = static_cast<double>(water);
+  }
+  for (const Reach& reach : find_network(view.flow, view.spilling, 0, progress)) {
+    if (!reach.channel.valid()) continue;
+    const std::uint32_t edge = number[reach.channel.index()];
+    found.edge[1].values[edge] = reach.area * square;
+    found.edge[2].values[edge] = reach.strahler;
+    found.vertex[2].values[reach.points.back().vertex.index()] += reach.area * square;
+  }
+  return found;
+}
+
+}  // namespace
+
+void check_mesh_path(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".nc" || extension == ".gpkg") return;
+  throw Error(ErrorCode::Usage,
+              "--mesh writes .nc (UGRID) or .gpkg, which hold values of edges, not '" + path + "'");
+}
+
+void write_flow_mesh(const LoadedTin& loaded, const FlowView& view, const DrainConfig& config,
+                     PendingOutputs& outputs, Progress& progress) {
+  const Attributes attributes = find_attributes(loaded, view, progress);
+  std::vector<std::uint8_t> is_pit = find_pits(loaded.tin).is_pit;
+  std::replace(is_pit.begin(), is_pit.end(), static_cast<std::uint8_t>(PitKind::Boundary), std::uint8_t{0});
+  const TinView tin{.tin = loaded.tin,
+                    .written_xy = loaded.written,
+                    .crs_wkt = loaded.crs.wkt,
+                    .crs_authority = loaded.crs.authority,
+                    .is_pit = is_pit,
+                    .vertex_attributes = attributes.vertex,
+                    .edge_attributes = attributes.edge};
+  write_tin(config.mesh_path, tin, {}, outputs, config.overwrite ? Overwrite::Yes : Overwrite::No, progress);
+}
+
+}  // namespace thalweg

@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+"""Water on real terrain: pits, drawn valleys, networks and conditioning, beside GRASS GIS and a priority-flood.
+
+usage: hydrology.py THALWEG TERRAINS [FOLDER [NAME...]]
+
+For each terrain: pits by depth in the raw DEM (8 neighbours), in the Delaunay TIN and in the best TINs of orders 1
+to 3; what filling adds; the share of drawn valleys that drain along themselves; how far the network of the TIN and
+that of r.watershed on the rasterised TIN lie apart; what conditioning changes, beside r.fill.dir and a plain
+priority-flood. Prints tables in Markdown; with FOLDER, draws both networks there. Needs grass-core, python3-gdal,
+python3-scipy, python3-matplotlib.
+"""
+import heapq
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy as np
+from osgeo import gdal, ogr
+from scipy import ndimage
+
+gdal.UseExceptions()
+DEMS = ["bigtujunga_srtm30", "jacksboro_lonlat", "slovenia_lidar1m", "tidal_marsh_nodata", "vermont_srtm90"]
+CLASSES = [0.01, 0.1, 0.5, 1, 5]
+SHARE = 0.002  # of the cells: least ground of a stream
+STEPS = ["fill", "breach", "fill,breach"]
+AROUND = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)]
+
+
+def run(*command, **options):
+    return subprocess.run([str(c) for c in command], check=True, capture_output=True, text=True, **options).stdout
+
+
+def read_grid(path):
+    data = gdal.Open(str(path))
+    heights = data.ReadAsArray().astype(float)
+    nodata = data.GetRasterBand(1).GetNoDataValue()
+    valid = np.isfinite(heights) if nodata is None else np.isfinite(heights) & (heights != nodata)
+    return heights, valid, data.GetGeoTransform()
+
+
+def outlets_of(valid):
+    """Cells from which water leaves: at the frame, or beside a cell without data."""
+    inside = ndimage.binary_erosion(valid, np.ones((3, 3)), border_value=0)
+    return valid & ~inside
+
+
+def pits_of(heights, valid):
+    """Depth of each pit of a grid: from its bottom to where its water first finds lower ground, or leaves."""
+    rows, columns = heights.shape
+    index = np.arange(heights.size).reshape(heights.shape)
+    pairs = []
+    for down, right in [(0, 1), (1, 0), (1, 1), (1, -1)]:
+        a = (slice(0, rows - down), slice(max(0, -right), columns - max(0, right)))
+        b = (slice(down, rows), slice(max(0, right), columns + min(0, right)))
+        both = valid[a] & valid[b]
+        pairs.append(np.stack([index[a][both], index[b][both]], 1))
+    pairs = np.concatenate(pairs)
+    z = heights.ravel()
+    rise = np.maximum(z[pairs[:, 0]], z[pairs[:, 1]])
+    leaving = index[outlets_of(valid)]
+    root = heights.size
+    pairs = np.concatenate([pairs, np.stack([leaving, np.full_like(leaving, root)], 1)])
+    rise = np.concatenate([rise, z[leaving]])
+    order = np.argsort(rise, kind="stable")
+    parent = list(range(root + 1))
+    bottom = z.tolist() + [-np.inf]
+
+    def find(i):
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    depths = []
+    for (a, b), height in zip(pairs[order].tolist(), rise[order].tolist()):
+        a, b = find(a), find(b)
+        if a == b:
+            continue
+        if bottom[a] > bottom[b]:
+            a, b = b, a
+        if height > bottom[b]:
+            depths.append(height - bottom[b])
+        parent[b] = a
+    return depths
+
+
+def flooded(heights, valid):
+    """Priority-flood (Barnes, Lehman, Mulla 2014): the lowest surface without pits that is nowhere lower."""
+    filled = np.where(valid, np.inf, np.nan)
+    queue = [(heights[r, c], r, c) for r, c in zip(*np.nonzero(outlets_of(valid)))]
+    for z, r, c in queue:
+        filled[r, c] = z
+    heapq.heapify(queue)
+    rows, columns = heights.shape
+    while queue:
+        z, r, c = heapq.heappop(queue)
+        for dr, dc in AROUND:
+            i, j = r + dr, c + dc
+            if 0 <= i < rows and 0 <= j < columns and filled[i, j] == np.inf:
+                filled[i, j] = max(z, heights[i, j])
+                heapq.heappush(queue, (filled[i, j], i, j))
+    return filled
+
+
+class Grass:
+    def __init__(self, dem, folder):
+        self.place = pathlib.Path(folder) / "location"
+        run("grass", "-c", dem, self.place, "-e")
+        self("r.in.gdal", "-o", f"input={dem}", "output=dem")
+        self("g.region", "raster=dem")
+
+    def __call__(self, *command):
+        return run("grass", self.place / "PERMANENT", "--exec", *command)
+
+    def raster(self, name, path):
+        self("r.out.gdal", f"input={name}", f"output={path}", "format=GTiff", "type=Float64", "nodata=-9999", "-f")
+        return gdal.Open(str(path)).ReadAsArray()
+
+
+def near_share(mine, other):
+    """Share of the cells of one network that have a cell of the other within one cell."""
+    return np.count_nonzero(mine & ndimage.binary_dilation(other, np.ones((3, 3)))) / max(1, np.count_nonzero(mine))
+
+
+def burn(lines, dem, path):
+    """Cells that the lines of a layer touch."""
+    source = gdal.Open(str(dem))
+    target = gdal.GetDriverByName("GTiff").Create(str(path), source.RasterXSize, source.RasterYSize, 1, gdal.GDT_Byte)
+    target.SetGeoTransform(source.GetGeoTransform())
+    layer_source = ogr.Open(str(lines))
+    gdal.RasterizeLayer(target, [1], layer_source.GetLayerByName("network"), burn_values=[1])
+    return target.ReadAsArray() == 1
+
+
+def drain(thalweg, tin, output, *options):
+    return json.loads(run(thalweg, "drain", tin, output, "--report", "-", "-q", "--overwrite", *options))
+
+
+def by_class(depths):
+    return [sum(low < d <= high for d in depths) for low, high in zip([-1, *CLASSES], [*CLASSES, np.inf])]
+
+
+def build(thalweg, folder, points, lines, order, output):
+    how = ["--optimize", "none", "--order", "0"] if order == 0 else ["--order", order]
+    run(thalweg, "build", *points, output, *lines, *how, "-q", "--overwrite")
+
+
+def pit_rows(thalweg, name, points, lines, orders, folder):
+    for order in orders:
+        tin = folder / f"{name}_{order}.ply"
+        build(thalweg, folder, points, lines, order, tin)
+        report = drain(thalweg, tin, folder / "water.gpkg")
+        classes = [c["pits"] for c in report["pits"]["interior_by_depth"]]
+        held = report["consistency"]
+        share = 100 * held["draining_length_m"] / held["valley_length_m"] if held["valley_length_m"] else float("nan")
+        yield (order, sum(classes), classes, report["pits"]["fill_volume_m3"], share, held["crossed_ridge_edges"],
+               held["triangles_on_valleys"])
+
+
+def draw(path, heights, valid, thalweg_cells, grass_cells):
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    shade = np.hypot(*np.gradient(np.where(valid, heights, np.nanmean(heights[valid]))))
+    light = 1 - 0.7 * np.clip(shade / np.percentile(shade[valid], 98), 0, 1)
+    image = np.repeat(light[..., None], 3, 2)
+    image[~valid] = 1
+    both = thalweg_cells & grass_cells
+    for cells, colour in ((grass_cells & ~both, (0.85, 0.2, 0.1)), (thalweg_cells & ~both, (0.1, 0.35, 0.9)),
+                          (both, (0.1, 0.6, 0.2))):
+        image[cells] = colour
+    pyplot.imsave(path, image)
+
+
+def dem_of(name, folder, heights, valid, transform):
+    """The DEM as floats, where the CRS is none of GRASS's business."""
+    path = folder / f"{name}_float.tif"
+    rows, columns = heights.shape
+    target = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float64)
+    target.SetGeoTransform(transform)
+    target.GetRasterBand(1).SetNoDataValue(-9999)
+    target.GetRasterBand(1).WriteArray(np.where(valid, heights, -9999))
+    target.FlushCache()
+    return path
+
+
+def main():
+    thalweg, terrains = sys.argv[1], pathlib.Path(sys.argv[2])
+    pictures = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+    names = sys.argv[4:] or DEMS
+    pits, networks, conditioning = [], [], []
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        for name in names:
+            folder = terrains / name
+            dem = folder / "dem.tif"
+            lines = ["--valleys", f"{folder}/lines.gpkg|layername=valleys", "--ridges", f"{folder}/lines.gpkg|layername=ridges"]
+            heights, valid, transform = read_grid(dem)
+            raw = by_class(pits_of(heights, valid))
+            cell = abs(transform[1])
+            if name.endswith("lonlat"):
+                ground = (111320 * cell) * (111320 * abs(transform[5])) * np.cos(np.radians(transform[3]))
+            else:
+                ground = cell * abs(transform[5])
+            flood = flooded(heights, valid)
+            added = np.where(valid, flood - heights, 0)
+            pits.append((name, "DEM, 8 neighbours", sum(raw), raw, added.sum() * ground, None, None, None))
+            for order, *row in pit_rows(thalweg, name, [dem], lines, [0, 1], scratch):
+                pits.append((name, f"order {order}", *row))
+            crs = ["--a-crs", "EPSG:4326"] if name.endswith("lonlat") else []
+            for order, *row in pit_rows(thalweg, f"{name}_off", [folder / "points_offgrid.csv"], [*crs], [0, 1, 2, 3], scratch):
+                pits.append((name + ", points_offgrid", f"order {order}", *row))
+            print(f"{name}: pits done", file=sys.stderr)
+
+            tin = scratch / f"{name}_1.ply"
+            floats = dem_of(name, scratch, heights, valid, transform)
+            place = scratch / f"grass_{name}"
+            place.mkdir()
+            grass = Grass(floats, place)
+            cells = int(SHARE * np.count_nonzero(valid))
+            grass("r.watershed", "elevation=dem", f"threshold={cells}", "stream=streams", "accumulation=accumulation")
+            streams = grass.raster("streams", place / "streams.tif")
+            streams = np.isfinite(streams) & (streams > 0)
+            drain(thalweg, tin, scratch / "network.gpkg", "--min-area", cells * ground, "--pass-pits", 1e6)
+            mine = burn(scratch / "network.gpkg", floats, scratch / "network.tif")
+            networks.append((name, np.count_nonzero(mine), np.count_nonzero(streams), near_share(mine, streams),
+                             near_share(streams, mine)))
+            if pictures:
+                pictures.mkdir(parents=True, exist_ok=True)
+                draw(pictures / f"network_{name}.png", heights, valid, mine, streams)
+            print(f"{name}: networks done", file=sys.stderr)
+
+            grass("r.fill.dir", "input=dem", "output=filled", "direction=direction")
+            filled = grass.raster("filled", place / "filled.tif")
+            rise = np.where(valid & (filled > -9000), filled - heights, 0)
+            conditioning.append((name, "r.fill.dir, 8 neighbours", np.count_nonzero(rise), np.abs(rise).sum(), np.abs(rise).max(),
+                                 len(pits_of(np.where(valid, heights + rise, 0), valid))))
+            conditioning.append((name, "priority-flood, 8 neighbours", np.count_nonzero(added), added.sum(), added.max(),
+                                 len(pits_of(np.where(valid, flood, 0), valid))))
+            for steps in STEPS:
+                report = drain(thalweg, tin, scratch / "water.gpkg", "--condition", steps)
+                done = report["conditioned"]
+                conditioning.append((name, f"{steps}, on the TIN of order 1", done["heights"], done["sum_m"], done["max_m"],
+                                     report["pits"]["interior"]))
+            print(f"{name}: conditioning done", file=sys.stderr)
+    print("| terrain | surface | pits | " + " | ".join(f"<= {c} m" for c in CLASSES) +
+          " | more | volume to fill, m3 | drawn valleys that drain, % | ridge edges crossed | triangles on valleys |")
+    print("|---" * 13 + "|")
+    for name, surface, count, classes, volume, share, crossed, on_valleys in pits:
+        text = [name, surface, count, *classes, f"{volume:.4g}", "" if share is None or share != share else f"{share:.1f}",
+                "" if crossed is None or share != share else crossed, "" if on_valleys is None or share != share else on_valleys]
+        print("| " + " | ".join(map(str, text)) + " |")
+    print("\n| terrain | cells of the TIN's network | cells of r.watershed's | of the TIN's within one cell of r.watershed's, % | "
+          "of r.watershed's within one cell of the TIN's, % |\n" + "|---" * 5 + "|")
+    for name, mine, theirs, one, other in networks:
+        print(f"| {name} | {mine} | {theirs} | {100 * one:.1f} | {100 * other:.1f} |")
+    print("\n| terrain | what | heights changed | sum of changes, m | largest, m | pits left |\n" + "|---" * 6 + "|")
+    for name, what, count, total, most, left in conditioning:
+        print(f"| {name} | {what} | {count} | {total:.1f} | {most:.2f} | {left} |")
+
+
+if __name__ == "__main__":
+    main()
