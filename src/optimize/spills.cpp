@@ -21,7 +21,8 @@
 //
 // Where depth does not come first it is the sum over heights of the number of sets without ROOT, under
 // whatever links are chosen: pit_terms.hpp counts those, with the height to the next change as the weight of
-// a set. Sets that links join are cut at the same heights (a cluster), so they have equal weights.
+// a set. Sets that links join are cut at the same heights (a cluster), so they have equal weights. Clusters
+// with many links are left out, so that what is counted may be less than the depth, never more.
 #include "optimize/spills.hpp"
 
 #include "base/union_find.hpp"
@@ -194,7 +195,10 @@ namespace {
 class DepthSweep {
  public:
   DepthSweep(const Tin& tin, double metres_per_unit)
-      : pools_(tin, metres_per_unit), clusters_(tin.vertex_count() + 1), since_(tin.vertex_count() + 1, 0) {}
+      : pools_(tin, metres_per_unit),
+        clusters_(tin.vertex_count() + 1),
+        since_(tin.vertex_count() + 1, 0),
+        until_(tin.vertex_count() + 1, kAlways) {}
 
   DepthTerms run(const std::vector<HeightEdge>& fixed, const std::vector<HeightEdge>& links,
                  std::span<const std::uint32_t> rank) {
@@ -217,8 +221,16 @@ class DepthSweep {
         if (set != kRoot) settle(set, edge.height);
       }
     }
+    constant_ += counted_depth(a, b, edge.height);
     if (a != kRoot && b != kRoot) unite_clusters(a, b);
-    constant_ += pools_.unite(a, b, edge.height);
+    pools_.unite(a, b, edge.height);
+  }
+
+  /// The depth of the set that ends where these two meet, as far as it is counted.
+  std::int64_t counted_depth(std::uint32_t a, std::uint32_t b, double height) {
+    const std::uint32_t younger = pools_.bottom(a) > pools_.bottom(b) ? a : b;
+    const std::int64_t from = pools_.steps(pools_.bottom(younger));
+    return std::max<std::int64_t>(0, std::min(pools_.steps(height), until_[clusters_.find(younger)]) - from);
   }
 
   void activate(const HeightEdge& link) {
@@ -228,7 +240,18 @@ class DepthSweep {
       if (set != kRoot) settle(set, link.height);
     }
     if (a != kRoot && b != kRoot) unite_clusters(a, b);
-    active_[clusters_.find(a != kRoot ? a : b)].push_back(link);
+    const std::uint32_t cluster = clusters_.find(a != kRoot ? a : b);
+    if (until_[cluster] != kAlways) return;
+    std::vector<HeightEdge>& all = active_[cluster];
+    all.push_back(link);
+    if (all.size() > kMostLinks) give_up(cluster, pools_.steps(link.height));
+  }
+
+  /// What so many links join may be joined in too many ways to be written down: from here on its sets are
+  /// taken to be drained, which is less than what they cost.
+  void give_up(std::uint32_t cluster, std::int64_t now) {
+    until_[cluster] = std::min(until_[cluster], now);
+    active_.erase(cluster);
   }
 
   void unite_clusters(std::uint32_t a, std::uint32_t b) {
@@ -236,12 +259,20 @@ class DepthSweep {
     if (!clusters_.unite(a, b)) return;
     const std::uint32_t into = clusters_.find(a), from = into == a ? b : a;
     const auto moved = active_.find(from);
+    const std::int64_t until = std::min(until_[a], until_[b]);
+    if (until != kAlways) {
+      until_[into] = until;
+      active_.erase(a);
+      active_.erase(b);
+      return;
+    }
     if (moved == active_.end()) return;
     since_[into] = since_[from];  // if both have links, both have just been settled
     std::vector<HeightEdge> links = std::move(moved->second);
     active_.erase(moved);
     std::vector<HeightEdge>& all = active_[into];
     all.insert(all.end(), links.begin(), links.end());
+    if (all.size() > kMostLinks) give_up(into, since_[into]);
   }
 
   /// Writes down the sets of a cluster as they were from its last change up to this height.
@@ -270,10 +301,14 @@ class DepthSweep {
     if (found->second.empty()) active_.erase(found);
   }
 
+  static constexpr std::size_t kMostLinks = 16;
+  static constexpr std::int64_t kAlways = std::numeric_limits<std::int64_t>::max();
+
   Pools pools_;
   UnionFind clusters_;               ///< of sets that links, or what has become of sets, join
   std::vector<std::int64_t> since_;  ///< by cluster that has links: its last change, in steps
   std::map<std::uint32_t, std::vector<HeightEdge>> active_;  ///< by cluster
+  std::vector<std::int64_t> until_;                          ///< by cluster: when it was given up, in steps
   std::vector<PitLink> found_;
   std::vector<std::int64_t> weight_ = {0};  ///< by node
   WideSteps constant_ = 0;

@@ -30,7 +30,7 @@ WideSteps pit_depth_of(const Tin& tin, std::span<const Quadrilateral> quadrilate
                        std::span<const Label> labels, double metres_per_unit, const Progress& progress);
 
 /// The depths as counts: between two heights, so many metres apart, each set that no link leaves costs as
-/// many.
+/// many. Together at most the depth, and all of it but where more than 16 links hang together.
 struct DepthTerms {
   PitTerms terms;
   WideSteps constant = 0;  ///< steps that no link changes

@@ -4,7 +4,7 @@
 usage: hydrology.py THALWEG TERRAINS [FOLDER [NAME...]]
 
 For each terrain: pits by depth in the raw DEM (8 neighbours), in the Delaunay TIN and in the best TINs of orders 1
-to 3; what filling adds; the share of drawn valleys that drain along themselves; how far the network of the TIN and
+to 3 (fewest pits, or least depth of pits, then smoothest); what filling adds; the share of drawn valleys that drain along themselves; how far the network of the TIN and
 that of r.watershed on the rasterised TIN lie apart; what conditioning changes, beside r.fill.dir and a plain
 priority-flood. Prints tables in Markdown; with FOLDER, draws both networks there. Needs grass-core, python3-gdal,
 python3-scipy, python3-matplotlib.
@@ -24,6 +24,13 @@ gdal.UseExceptions()
 DEMS = ["bigtujunga_srtm30", "jacksboro_lonlat", "slovenia_lidar1m", "tidal_marsh_nodata", "vermont_srtm90"]
 CLASSES = [0.01, 0.1, 0.5, 1, 5]
 SHARE = 0.002  # of the cells: least ground of a stream
+SURFACES = {"Delaunay": ["--optimize", "none", "--order", "0"],
+            "order 1": [],
+            "order 1, depth": ["--optimize", "pit-depth,normal-angle-sum"],
+            "order 1, depth, drawn valleys": ["--optimize", "pit-depth,draining-valleys,normal-angle-sum"],
+            "order 2": ["--order", "2"],
+            "order 3": ["--order", "3"]}
+SCATTERED = ["Delaunay", "order 1", "order 1, depth", "order 2", "order 3"]
 STEPS = ["fill", "breach", "fill,breach"]
 AROUND = [(-1, -1), (-1, 0), (-1, 1), (0, -1), (0, 1), (1, -1), (1, 0), (1, 1)]
 
@@ -107,7 +114,7 @@ def flooded(heights, valid):
 class Grass:
     def __init__(self, dem, folder):
         self.place = pathlib.Path(folder) / "location"
-        run("grass", "-c", dem, self.place, "-e")
+        run("grass", "-c", dem if gdal.Open(str(dem)).GetProjection() else "XY", self.place, "-e")
         self("r.in.gdal", "-o", f"input={dem}", "output=dem")
         self("g.region", "raster=dem")
 
@@ -142,20 +149,15 @@ def by_class(depths):
     return [sum(low < d <= high for d in depths) for low, high in zip([-1, *CLASSES], [*CLASSES, np.inf])]
 
 
-def build(thalweg, folder, points, lines, order, output):
-    how = ["--optimize", "none", "--order", "0"] if order == 0 else ["--order", order]
-    run(thalweg, "build", *points, output, *lines, *how, "-q", "--overwrite")
-
-
-def pit_rows(thalweg, name, points, lines, orders, folder):
-    for order in orders:
-        tin = folder / f"{name}_{order}.ply"
-        build(thalweg, folder, points, lines, order, tin)
+def pit_rows(thalweg, name, points, lines, surfaces, folder):
+    for surface in surfaces:
+        tin = folder / f"{name}_{surface.replace(' ', '_')}.ply"
+        run(thalweg, "build", *points, tin, *lines, *SURFACES[surface], "-q", "--overwrite")
         report = drain(thalweg, tin, folder / "water.gpkg")
         classes = [c["pits"] for c in report["pits"]["interior_by_depth"]]
         held = report["consistency"]
         share = 100 * held["draining_length_m"] / held["valley_length_m"] if held["valley_length_m"] else float("nan")
-        yield (order, sum(classes), classes, report["pits"]["fill_volume_m3"], share, held["crossed_ridge_edges"],
+        yield (surface, sum(classes), classes, report["pits"]["fill_volume_m3"], share, held["crossed_ridge_edges"],
                held["triangles_on_valleys"])
 
 
@@ -174,12 +176,13 @@ def draw(path, heights, valid, thalweg_cells, grass_cells):
     pyplot.imsave(path, image)
 
 
-def dem_of(name, folder, heights, valid, transform):
-    """The DEM as floats, where the CRS is none of GRASS's business."""
+def dem_of(name, folder, heights, valid, transform, projection):
+    """The DEM as doubles: what a TIN of all its cells gives back cell by cell."""
     path = folder / f"{name}_float.tif"
     rows, columns = heights.shape
     target = gdal.GetDriverByName("GTiff").Create(str(path), columns, rows, 1, gdal.GDT_Float64)
     target.SetGeoTransform(transform)
+    target.SetProjection(projection)
     target.GetRasterBand(1).SetNoDataValue(-9999)
     target.GetRasterBand(1).WriteArray(np.where(valid, heights, -9999))
     target.FlushCache()
@@ -207,15 +210,15 @@ def main():
             flood = flooded(heights, valid)
             added = np.where(valid, flood - heights, 0)
             pits.append((name, "DEM, 8 neighbours", sum(raw), raw, added.sum() * ground, None, None, None))
-            for order, *row in pit_rows(thalweg, name, [dem], lines, [0, 1], scratch):
-                pits.append((name, f"order {order}", *row))
+            for row in pit_rows(thalweg, name, [dem], lines, list(SURFACES)[:4], scratch):
+                pits.append((name, *row))
             crs = ["--a-crs", "EPSG:4326"] if name.endswith("lonlat") else []
-            for order, *row in pit_rows(thalweg, f"{name}_off", [folder / "points_offgrid.csv"], [*crs], [0, 1, 2, 3], scratch):
-                pits.append((name + ", points_offgrid", f"order {order}", *row))
+            for row in pit_rows(thalweg, f"{name}_off", [folder / "points_offgrid.csv"], crs, SCATTERED, scratch):
+                pits.append((name + ", points_offgrid", *row))
             print(f"{name}: pits done", file=sys.stderr)
 
-            tin = scratch / f"{name}_1.ply"
-            floats = dem_of(name, scratch, heights, valid, transform)
+            tin = scratch / f"{name}_order_1.ply"
+            floats = dem_of(name, scratch, heights, valid, transform, gdal.Open(str(dem)).GetProjection())
             place = scratch / f"grass_{name}"
             place.mkdir()
             grass = Grass(floats, place)
