@@ -1,7 +1,9 @@
 // Choosing the writer of a TIN, and the CRS sidecar.
 //
 // A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a
-// NAME.prj that lies there already would be taken for its own: it has to go.
+// NAME.prj that lies there already would be taken for its own: it has to go. One that says the same, as that of
+// NAME in another format does, stays.
+#include "io/file_content.hpp"
 #include "io/file_writer.hpp"
 #include "io/gdal_session.hpp"
 #include "io/spatial_reference.hpp"
@@ -90,8 +92,11 @@ void write_sidecar(const std::string& path, const TinView& view, PendingOutputs&
     pending.remove_stale(path, mode);
     return;
   }
+  const std::string text = prj_text(definition);
+  const bool is_there = mode == Overwrite::No && std::filesystem::is_regular_file(path);
+  if (is_there && read_prj_sidecar(path) == text) return;
   FileWriter file(pending.add(path, mode), path);
-  file.text(prj_text(definition) + "\n");
+  file.text(text + "\n");
   file.close();
 }
 

@@ -2,6 +2,8 @@
 #include "pipeline/labelling_options.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/optimize/criterion.hpp>
+#include <thalweg/order/definition.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -10,14 +12,40 @@
 
 namespace thalweg::cli {
 
+std::string definition_names() {
+  std::string names;
+  for (const OrderDefinition definition : kOrderDefinitions) {
+    names += (names.empty() ? "" : ", ") + std::string(definition_name(definition));
+  }
+  return names;
+}
+
+namespace {
+
+std::string criterion_names() {
+  std::string names;
+  for (const CriterionTraits& traits : all_criteria()) {
+    names += (names.empty() ? "" : ", ") + std::string(traits.name);
+  }
+  return names;
+}
+
+}  // namespace
+
 void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
-  command.add_option("--order", arguments.order,
-                     "largest constrained order of a triangle; 0 is the constrained Delaunay triangulation; "
-                     "auto: no more than fewest pits take");
+  command
+      .add_option("--order", arguments.order,
+                  "largest constrained order of a triangle; 0 is the constrained Delaunay triangulation; "
+                  "auto: no more than fewest pits take")
+      ->capture_default_str();
   command.add_option("--order-max", arguments.order_max, "largest order with --order auto (default: 3)");
-  command.add_option("--definition", arguments.definition, "which constrained order");
-  command.add_option("--optimize", arguments.optimize,
-                     "criteria in order of priority, separated by commas, or none");
+  command.add_option("--definition", arguments.definition, "which constrained order: " + definition_names())
+      ->capture_default_str();
+  command
+      .add_option("--optimize", arguments.optimize,
+                  "none, or criteria in order of priority, separated by commas: " + criterion_names() +
+                      "; or weighted sums, as 2*edge-length+flat-triangles")
+      ->capture_default_str();
   command.add_option("--reference", arguments.reference,
                      "what vertical-error is measured against: a DEM, or points");
   command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)");

@@ -20,7 +20,10 @@ struct LabellingArguments {
   std::string reference;
 };
 
+/// The names that --definition takes, separated by commas.
+std::string definition_names();
 void add_labelling_options(CLI::App& command, LabellingArguments& arguments);
 /// Throws: Error{Usage} that names the option and what it takes.
 LabellingConfig parse_labelling(const LabellingArguments& arguments);
+
 }  // namespace thalweg::cli

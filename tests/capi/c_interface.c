@@ -9,13 +9,13 @@
 
 static int failures = 0;
 
-#define EXPECT(condition)                                                        \
-  do {                                                                           \
-    if (!(condition)) {                                                          \
+#define EXPECT(condition)                                                                         \
+  do {                                                                                            \
+    if (!(condition)) {                                                                           \
       fprintf(stderr, "%s:%d: not true: %s (last message: %s)\n", __FILE__, __LINE__, #condition, \
-              thalweg_last_message());                                           \
-      ++failures;                                                                \
-    }                                                                            \
+              thalweg_last_message());                                                            \
+      ++failures;                                                                                 \
+    }                                                                                             \
   } while (0)
 
 enum { SIDE = 30, COUNT = SIDE * SIDE };
@@ -133,7 +133,8 @@ static void test_failures(void) {
   EXPECT(thalweg_job_build(job, NULL) == THALWEG_USAGE);
   EXPECT(thalweg_job_set_option(job, "no-such-option", "1") == THALWEG_USAGE);
   EXPECT(strstr(thalweg_last_message(), "no-such-option") != NULL);
-  EXPECT(thalweg_job_set_option(job, "overwrite", "1") == THALWEG_USAGE); /* where it goes is no option here */
+  EXPECT(thalweg_job_set_option(job, "overwrite", "1") ==
+         THALWEG_USAGE); /* where it goes is no option here */
   EXPECT(thalweg_job_set_option(job, "max-error", NULL) == THALWEG_USAGE);
   EXPECT(thalweg_job_add_points(job, NULL, 3) == THALWEG_USAGE);
   EXPECT(thalweg_job_add_source(job, "x.gpkg|layername=") == THALWEG_USAGE);
@@ -151,7 +152,8 @@ static void test_failures(void) {
   thalweg_tin_free(tin);
   tin = NULL;
   EXPECT(thalweg_job_set_option(job, "max-error", "-1") == THALWEG_OK);
-  EXPECT(thalweg_job_build(job, &tin) == THALWEG_USAGE && strstr(thalweg_last_message(), "max-error") != NULL);
+  EXPECT(thalweg_job_build(job, &tin) == THALWEG_USAGE &&
+         strstr(thalweg_last_message(), "max-error") != NULL);
   thalweg_job_free(job);
 
   job = thalweg_job_new();
@@ -166,6 +168,86 @@ static void test_failures(void) {
   EXPECT(thalweg_job_add_points(job, bad, 1) == THALWEG_OK);
   EXPECT(thalweg_job_build(job, &tin) == THALWEG_BAD_COORDINATE);
   EXPECT(strstr(thalweg_last_message(), "point 900") != NULL);
+  thalweg_job_free(job);
+}
+
+/* Corners of all triangles, to be freed. */
+static uint32_t* triangles_of(const thalweg_tin* tin) {
+  uint32_t* corners = malloc(3 * thalweg_tin_triangle_count(tin) * sizeof(uint32_t));
+  EXPECT(thalweg_tin_triangles(tin, corners) == THALWEG_OK);
+  return corners;
+}
+
+static double length_of_edges(const thalweg_tin* tin) {
+  const char* found = strstr(thalweg_tin_report(tin), "\"name\": \"edge-length\"");
+  found = found == NULL ? NULL : strstr(found, "\"result\": ");
+  EXPECT(found != NULL);
+  return found == NULL ? 0 : strtod(found + strlen("\"result\": "), NULL);
+}
+
+static void test_optimize(const char* folder) {
+  char path[4096];
+  snprintf(path, sizeof path, "%s/c_optimize.ply", folder);
+  const double valley[] = {500000, 5200000, 1, 500290, 5200290, 0};
+  thalweg_job* job = lattice_job();
+  thalweg_tin* given = NULL;
+  thalweg_tin* tin = NULL;
+  EXPECT(thalweg_job_add_line(job, THALWEG_VALLEY, valley, 2, 3) == THALWEG_OK);
+  EXPECT(thalweg_job_set_option(job, "optimize", "none") == THALWEG_OK);
+  EXPECT(thalweg_job_build(job, &given) == THALWEG_OK);
+  EXPECT(thalweg_tin_write(given, path, NULL, NULL, 1) == THALWEG_OK);
+  EXPECT(thalweg_job_optimize(job, path, &tin) == THALWEG_USAGE &&
+         tin == NULL); /* it has points of its own */
+  thalweg_job_free(job);
+
+  job = thalweg_job_new();
+  EXPECT(thalweg_job_set_option(job, "optimize", "edge-length") == THALWEG_OK);
+  EXPECT(thalweg_job_optimize(job, path, &tin) == THALWEG_OK);
+  const size_t vertices = thalweg_tin_vertex_count(tin), triangles = thalweg_tin_triangle_count(tin);
+  const size_t constraints = thalweg_tin_constraint_count(tin);
+  EXPECT(vertices == thalweg_tin_vertex_count(given) && triangles == thalweg_tin_triangle_count(given));
+  EXPECT(constraints == thalweg_tin_constraint_count(given) && constraints > 0);
+  double* before = malloc(3 * vertices * sizeof(double));
+  double* after = malloc(3 * vertices * sizeof(double));
+  EXPECT(thalweg_tin_vertices(given, before) == THALWEG_OK && thalweg_tin_vertices(tin, after) == THALWEG_OK);
+  EXPECT(memcmp(before, after, 3 * vertices * sizeof(double)) == 0);
+  uint32_t* ends = malloc(2 * constraints * sizeof(uint32_t));
+  uint8_t* kinds = malloc(constraints);
+  EXPECT(thalweg_tin_constraints(tin, ends, kinds) == THALWEG_OK);
+  for (size_t e = 0; e < constraints; ++e) EXPECT(kinds[e] == THALWEG_VALLEY);
+
+  /* Fewest pits is another aim, gives other triangles, and edges that are no shorter. */
+  EXPECT(thalweg_job_set_option(job, "definition", "pathcon") == THALWEG_OK);
+  EXPECT(thalweg_job_set_option(job, "max-error", "1") == THALWEG_OK); /* an option of build ... */
+  thalweg_tin* none = NULL;
+  EXPECT(thalweg_job_optimize(job, path, &none) == THALWEG_USAGE && none == NULL); /* ... that does not fit */
+  thalweg_job_free(job);
+  job = thalweg_job_new();
+  EXPECT(thalweg_job_set_option(job, "optimize", "local-minima,edge-length") == THALWEG_OK);
+  thalweg_tin* drained = NULL;
+  EXPECT(thalweg_job_optimize(job, path, &drained) == THALWEG_OK);
+  uint32_t* shortest = triangles_of(tin);
+  uint32_t* driest = triangles_of(drained);
+  EXPECT(memcmp(shortest, driest, 3 * triangles * sizeof(uint32_t)) != 0);
+  EXPECT(length_of_edges(tin) > 0 && length_of_edges(tin) <= length_of_edges(drained));
+
+  EXPECT(thalweg_job_optimize(job, NULL, &none) == THALWEG_USAGE && none == NULL);
+  EXPECT(thalweg_job_optimize(job, path, NULL) == THALWEG_USAGE);
+  EXPECT(thalweg_job_optimize(NULL, path, &none) == THALWEG_USAGE);
+  EXPECT(thalweg_job_optimize(job, "no-such.ply", &none) == THALWEG_NOT_FOUND && none == NULL);
+  EXPECT(thalweg_job_optimize(job, folder, &none) != THALWEG_OK && none == NULL);
+  thalweg_job_cancel(job);
+  EXPECT(thalweg_job_optimize(job, path, &none) == THALWEG_CANCELLED && none == NULL);
+  remove(path);
+  free(before);
+  free(after);
+  free(ends);
+  free(kinds);
+  free(shortest);
+  free(driest);
+  thalweg_tin_free(given);
+  thalweg_tin_free(tin);
+  thalweg_tin_free(drained);
   thalweg_job_free(job);
 }
 
@@ -221,7 +303,8 @@ static void test_threads(void) {
   thrd_t threads[THREADS];
   char* reports[THREADS] = {NULL};
   const thalweg_status before = thalweg_last_status();
-  for (int i = 0; i < THREADS; ++i) EXPECT(thrd_create(&threads[i], build_on_thread, &reports[i]) == thrd_success);
+  for (int i = 0; i < THREADS; ++i)
+    EXPECT(thrd_create(&threads[i], build_on_thread, &reports[i]) == thrd_success);
   for (int i = 0; i < THREADS; ++i) {
     int bad = 1;
     EXPECT(thrd_join(threads[i], &bad) == thrd_success && bad == 0);
@@ -238,6 +321,7 @@ int main(int argc, char** argv) {
   test_versions();
   test_build_and_read_back(argv[1]);
   test_failures();
+  test_optimize(argv[1]);
   test_progress_and_cancel();
   test_threads();
   if (failures == 0) printf("all as expected\n");

@@ -7,6 +7,7 @@ outputs stay there, with the project that QGIS made of them and its picture, map
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -66,20 +67,26 @@ def run(name, parameters):
     return right and handleAlgorithmResults(algorithm, context, feedback, parameters=parameters)
 lines = sys.argv[1]
 print('build', run('thalweg:build', {'INPUT': 'points.gpkg', 'Z_FIELD': 'z', 'VALLEYS': [lines + '|layername=valleys'],
-                                     'RIDGES': [lines + '|layername=ridges'], 'OUTPUT': 'project.ply',
+                                     'RIDGES': [lines + '|layername=ridges'], 'OUTPUT': 'project.nc',
                                      'LAYERS': 'project.gpkg'}))
-print('drain', run('thalweg:drain', {'INPUT': 'project.ply', 'OUTPUT': 'project_drain.gpkg'}))
+print('drain', run('thalweg:drain', {'INPUT': 'project.nc', 'OUTPUT': 'project_drain.gpkg'}))
 layers = {}
 for layer in project.mapLayers().values():
     layers.setdefault(layer.name(), layer)
 print('names', sorted(layers), all(layer.isValid() for layer in layers.values()))
 print('crs', {layer.crs().authid() for layer in layers.values()})
 mesh, breaklines, pits = layers['project'], layers['Breaklines'], layers['Pits']
-print('triangles shown', mesh.rendererSettings().nativeMeshSettings().isEnabled())
+look = mesh.rendererSettings()
+print('triangles shown', look.nativeMeshSettings().isEnabled())
+shader = look.scalarSettings(look.activeScalarDatasetGroup()).colorRampShader()
+print('heights', round(shader.minimumValue()), round(shader.maximumValue()))
 print('kinds', [rule.label() for rule in breaklines.renderer().rootRule().children()][:2])
 print('pits', pits.renderer().symbol().color().name(), pits.featureCount() > 0)
 project.write('project.qgz')
 settings = QgsMapSettings()
+from thalweg_tin import build
+for words in (build.DEFINITIONS, build.CROSSINGS, build.DUPLICATES, build.NODATA):
+    print('words', sorted(words))
 order = ['Pits', 'Conflicts', 'Breaklines', 'Network', 'Catchments', 'project']
 settings.setLayers([layers[name] for name in order])
 settings.setDestinationCrs(mesh.crs())
@@ -91,7 +98,7 @@ job.waitForFinished()
 image = job.renderedImage()
 image.save('map.png')
 colors = {image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)}
-print('drawn', [color in colors for color in ('#1f6fd0', '#8a4b08', '#0040ff', '#000000')])
+print('drawn', [color in colors for color in ('#1f6fd0', '#8a4b08', '#0040ff')], len(colors) > 200)
 """
 
 # A model of two of the algorithms, as the designer saves it.
@@ -184,9 +191,21 @@ def main():
         status, text = bench.run(QGIS_PROCESS, "run", "thalweg:simplify", f"--INPUT={dem}", "--MAX_POINTS=2",
                                  f"--OUTPUT={folder}/no.ply")
         bench.check("too few points are refused", status != 0, text)
+        lake = f"{folder}/lake.geojson"
+        with open(lake, "w") as file:
+            ring = [[676300, 5148300], [676420, 5148310], [676400, 5148420], [676290, 5148400], [676300, 5148300]]
+            json.dump({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}},
+                       "features": [{"type": "Feature", "properties": {"level": 440.5},
+                                     "geometry": {"type": "Polygon", "coordinates": [ring]}}]}, file)
+        bench.algorithm("build", "lake.ply", INPUT=f"{folder}/points.gpkg", Z_FIELD="z", LAKES=lake, LINE_Z_FIELD="level",
+                        OUTPUT=f"{folder}/lake.ply", REPORT=f"{folder}/lake.json")
+        bench.check("a lake", json.load(open(f"{folder}/lake.json"))["input"]["lakes"] == 1, "there is none")
+        hills = f"{source}/sample_terrains/jacksboro"
+        bench.algorithm("build", "hills.nc", INPUT=f"{hills}/dem.tif", VALLEYS=f"{hills}/lines.gpkg|layername=valleys_3d",
+                        TARGET_CRS="EPSG:32617", OUTPUT=f"{folder}/hills.nc")
         tin = f"{folder}/tin.ply"
         bench.algorithm("optimize", "delaunay.ply", INPUT=tin, OPTIMIZE="none", OUTPUT=f"{folder}/delaunay.ply")
-        bench.algorithm("orders", "quads.csv", INPUT=f"{folder}/points.gpkg", TRIANGLE="0,1,2",
+        bench.algorithm("orders", "quads.csv", INPUT=f"{folder}/points.gpkg", TRIANGLE="0,1,2", DEFINITION=7,
                         OUTPUT=f"{folder}/quads.csv")
         bench.algorithm("tintoraster", "dem.tif", INPUT=tin, RESOLUTION=5, OUTPUT=f"{folder}/dem.tif")
         bench.algorithm("contours", "contours.gpkg", INPUT=tin, INTERVAL=10, OUTPUT=f"{folder}/contours.gpkg")
@@ -209,8 +228,14 @@ def main():
         bench.check("cancel stops at once and leaves nothing", "stopped True" in text and "left []" in text, text)
         _, text = bench.run(PYTHON, "-c", PROJECT, str(lines))
         for line in ("build True", "drain True", "crs {'EPSG:32632'}", "triangles shown True", "kinds ['Valleys', 'Ridges']",
-                     "pits #0040ff True", "drawn [True, True, True, True]"):
+                     "heights 400 521", "pits #0040ff True", "drawn [True, True, True] True"):
             bench.check(f"project: {line}", line in text, text)
+        told = subprocess.run([binary, "build", "--help"], check=True, capture_output=True, text=True).stdout
+        definitions = re.search(r"which constrained order: (.*)", told).group(1).split(", ")
+        choices = [re.search(rf"--{option} \{{([^}}]*)\}}", told).group(1).split(",")
+                   for option in ("crossing", "duplicates", "nodata")]
+        for words in (definitions, *choices):
+            bench.check(f"choices: {', '.join(words)}", f"words {sorted(words)}" in text, text)
         _, text = bench.run(PYTHON, "-c", MODEL)
         bench.check("model saved", "saved True" in text, text)
         status, text = bench.run(QGIS_PROCESS, "run", f"{folder}/terrain.model3", f"--points={folder}/points.gpkg",

@@ -1,70 +1,143 @@
 #!/usr/bin/env python3
-"""The worked example "From survey to model" of README runs as shown, and gives the figures that it names.
+"""Runs what README shows, as it stands there, and the examples of each command's --help.
 
-usage: readme.py THALWEG PROJECT
+A block of commands, C or Python is run whole, in README's order and in one folder that holds sample_terrains; it must
+succeed, and print what stands after #> or //>. Commands of tools/dev are left out: they build and test the project.
+Blocks that need QGIS, a C compiler or NumPy are skipped, by name, where there is none.
+
+Usage: readme.py BINARY LIBRARY SOURCE
 """
-import json
 import os
-import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
-
-def section(text, title):
-    found = re.search(rf"^### {re.escape(title)}$(.*?)(?=^#{{1,3}} |\Z)", text, re.S | re.M)
-    if not found:
-        sys.exit(f"README has no section {title}")
-    return found.group(1)
+BINARY, LIBRARY, SOURCE = (os.path.abspath(path) for path in sys.argv[1:4])
+QGIS_PROCESS = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+PYTHON = "/usr/bin/python3" if os.path.exists("/usr/bin/python3") else sys.executable
+COMMANDS = r"^(thalweg|qgis_process|ogr2ogr|gdalinfo|ogrinfo|cd) "
 
 
-def figures(folder):
-    """What the table of the section shows, by its rows."""
-    def read(name):
-        return json.loads((folder / name).read_text())
+def blocks(text):
+    """Pairs of language and text; none for diagrams."""
+    for language, body in re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        if language or re.search(COMMANDS, body, re.MULTILINE):
+            yield language or "bash", body
 
-    surveyed, model = read("survey.json"), read("model.json")
-    before, after = read("survey_water.json"), read("model_water.json")
 
-    def share(report):
-        held = report["consistency"]["result"]
-        return f"{100 * held['draining_length_m'] / held['valley_length_m']:.1f} %"
+def needs(language, body):
+    """What the block needs and is not there."""
+    if language == "c" and not shutil.which("cc"):
+        return "a C compiler"
+    if language == "python" and subprocess.run([PYTHON, "-c", "import numpy"], capture_output=True).returncode:
+        return "NumPy"
+    if "qgis_process" in body and QGIS_PROCESS is None:
+        return "QGIS"
+    return None
 
-    pair = ((surveyed, before), (model, after))
-    return {
-        "pits": [str(water["pits"]["interior"]) for _, water in pair],
-        "volume to fill them": [f"{water['pits']['fill_volume_m3']:.0f} m3" for _, water in pair],
-        "drawn valley edges that rise": [str(build["consistency"]["result"]["rising_edges"]) for build, _ in pair],
-        "drawn valleys that drain": [share(build) for build, _ in pair],
-        "heights changed": ["0", str(model["conditioned"]["heights"])],
-        "by how much together": ["0 m", f"{model['conditioned']['sum_m']:.1f} m"],
-    }
+
+def environment(folder):
+    """Where the program, the library, the package and the plugin are found, and nothing of the user's."""
+    tools = f"{folder}/.tools"
+    os.makedirs(tools)
+    os.makedirs(f"{folder}/.home", mode=0o700)
+    os.symlink(BINARY, f"{tools}/thalweg")
+    if QGIS_PROCESS:
+        os.symlink(QGIS_PROCESS, f"{tools}/qgis_process")
+    return dict(os.environ, PATH=f"{tools}:/usr/bin:/bin", HOME=f"{folder}/.home", XDG_RUNTIME_DIR=f"{folder}/.home",
+                LC_ALL="C.UTF-8", QT_QPA_PLATFORM="offscreen", QGIS_PLUGINPATH=f"{SOURCE}/tools/qgis",
+                THALWEG_LIBRARY=LIBRARY, LD_LIBRARY_PATH=os.path.dirname(LIBRARY), PYTHONPATH=f"{SOURCE}/tools/python",
+                PYTHONDONTWRITEBYTECODE="1")
+
+
+def command_of(language, body, folder):
+    if language in ("bash", "sh"):
+        return ["bash", "-e", "-c", body]
+    path = f"{folder}/.block.{'c' if language == 'c' else 'py'}"
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(body)
+    if language == "python":
+        return [PYTHON, path]
+    build = (f"cc -std=c11 -Wall -Werror -I {SOURCE}/include {path} {LIBRARY} -o {folder}/.block && {folder}/.block")
+    return ["bash", "-c", build]
+
+
+def run(name, language, body, folder, env):
+    """0 if the block does what it shows."""
+    missing = needs(language, body)
+    if missing:
+        print(f"skip {name}: there is no {missing}")
+        return 0
+    try:
+        done = subprocess.run(command_of(language, body, folder), cwd=folder, env=env, capture_output=True, text=True,
+                              timeout=200)
+    except subprocess.TimeoutExpired:
+        print(f"FAIL {name}: it takes too long")
+        return 1
+    said = done.stdout + done.stderr
+    faults = [f"status {done.returncode}: {said[-700:]}"] if done.returncode != 0 else []
+    for promised in re.findall(r"^(?:#|//)> (.*)$", body, re.MULTILINE):
+        if promised not in said:
+            faults.append(f"does not print '{promised}' but: {said[-700:]}")
+    print(f"{'FAIL' if faults else 'ok  '} {name}", flush=True)
+    for fault in faults:
+        print("     " + fault)
+    return 1 if faults else 0
+
+
+def run_readme(folder, env):
+    shutil.copytree(f"{SOURCE}/sample_terrains", f"{folder}/sample_terrains")
+    text = open(f"{SOURCE}/README.md", encoding="utf-8").read()
+    found = list(blocks(text))
+    if len(found) < 8:
+        print(f"FAIL README shows {len(found)} blocks; are they still found?")
+        return 1
+    return sum(run(f"README, {language}: {body.splitlines()[0]}", language, body, folder, env)
+               for language, body in found)
+
+
+def run_help(folder, env):
+    """Each line of Examples in a folder that has the files which examples name."""
+    thalweg = lambda *arguments: subprocess.run([BINARY, *arguments], check=True, capture_output=True, text=True)
+    survey = f"{SOURCE}/sample_terrains/survey"
+    prepared = f"{folder}/prepared"
+    os.makedirs(prepared)
+    for file in (f"{survey}/points.csv", f"{survey}/lines.gpkg", f"{SOURCE}/sample_terrains/jacksboro/dem.tif"):
+        shutil.copy(file, prepared)
+    made = {"tin.ply": ["--report", "report.json"], "before.ply": ["--optimize", "none"]}
+    failed = 0
+    commands = re.findall(r"^  ([a-z]+) ", thalweg("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+    for command in commands:
+        examples = re.search(r"^Examples:\n((?:  thalweg .*\n)+)", thalweg(command, "--help").stdout, re.MULTILINE)
+        if not examples:
+            if command != "formats":
+                print(f"FAIL {command} --help shows no examples")
+                failed += 1
+            continue
+        place = f"{folder}/{command}"
+        shutil.copytree(prepared, place)
+        if command not in ("build", "order"):
+            for name, options in made.items():
+                subprocess.run([BINARY, "build", "points.csv", name, "-q", "--a-crs", "EPSG:32632", *options], cwd=place,
+                               check=True)
+        for example in examples.group(1).splitlines():
+            failed += run(f"{command} --help: {example.strip()}", "bash", example.strip(), place, env)
+    return failed
 
 
 def main():
-    thalweg, project = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-    text = section((project / "README.md").read_text(), "From survey to model")
-    commands = "\n".join(re.findall(r"^```sh$(.*?)^```$", text, re.S | re.M))
-    if commands.count("thalweg ") < 5:
-        sys.exit("the section has no commands")
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = pathlib.Path(scratch)
-        (folder / "sample_terrains").symlink_to(project / "sample_terrains")
-        environment = os.environ | {"PATH": f"{thalweg.parent}:{os.environ['PATH']}"}
-        subprocess.run(["sh", "-e", "-c", commands], cwd=folder, env=environment, check=True)
-        named = set(re.findall(r"`([a-z_]+\.(?:nc|tif|shp|gpkg|ply|json|inp|png))`", text))
-        missing = [name for name in sorted(named) if not (folder / name).exists()]
-        if missing or not named:
-            sys.exit(f"README names files that are not there: {missing}")
-        wrong = []
-        for row, values in figures(folder).items():
-            line = f"| {row} | {values[0]} | {values[1]} |"
-            if line not in text:
-                wrong.append(line)
-        if wrong:
-            sys.exit("README's table does not have these rows:\n" + "\n".join(wrong))
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        env = environment(folder)
+        os.makedirs(f"{folder}/readme")
+        failed += run_readme(f"{folder}/readme", env)
+        os.makedirs(f"{folder}/help")
+        failed += run_help(f"{folder}/help", env)
+    print(f"{failed} failed")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -42,12 +42,20 @@ void run_build(const CLI::App& command, BuildCommand& a) {
 void add_build_command(CLI::App& app) {
   auto a = std::make_shared<BuildCommand>();
   CLI::App* command = app.add_subcommand("build", "points and lines in, optimised TIN out");
-  command->add_option("POINTS... OUTPUT", a->files, "sources of points (vector, text, DEM), and the output")
+  command
+      ->add_option("POINTS... OUTPUT", a->files, "sources of points (vector, text, LAS, DEM), and the output")
       ->required()
       ->type_name("");
   add_build_options(*command, a->arguments);
   add_output_options(*command, a->output);
   add_common_options(*command, a->common);
+  add_examples(
+      *command,
+      "  thalweg build points.csv tin.ply --a-crs EPSG:32632 --report report.json --picture tin.png\n"
+      "  thalweg build points.csv tin.gpkg --valleys 'lines.gpkg|layername=valleys' "
+      "--ridges 'lines.gpkg|layername=ridges'\n"
+      "  thalweg build dem.tif tin.nc --max-error 5\n"
+      "  thalweg build points.csv short.ply --optimize edge-length --order 2\n");
   command->callback([a, command] { run_build(*command, *a); });
 }
 

@@ -23,6 +23,9 @@ struct Common {
 /// Adds --quiet, --progress, --format and, where work is parallel, --threads.
 void add_common_options(CLI::App& command, Common& common);
 
+/// What --help shows before the exit statuses: commands that work as they stand, a line each.
+void add_examples(CLI::App& command, const std::string& lines);
+
 /// The progress of the running command: drawn on stderr if that is a terminal or --progress asks for it, and
 /// quiet is not set; cancelled by SIGINT and SIGTERM.
 Progress& progress_of(const Common& common);

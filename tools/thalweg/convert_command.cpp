@@ -108,6 +108,13 @@ void add_convert_command(CLI::App& app) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--overwrite", a->config.overwrite, "replace an existing output");
   add_common_options(*command, a->common);
+  add_examples(*command,
+               "  thalweg convert tin.ply tin.xml\n"
+               "  thalweg convert tin.ply layers.gpkg --co LAYERS=triangles,breaklines\n"
+               "  thalweg convert tin.ply heights.tif --resolution 5\n"
+               "  thalweg convert tin.ply shade.tif --of COG --surface hillshade --resolution 5\n"
+               "  thalweg convert tin.ply contours.gpkg --contours --interval 10\n"
+               "  thalweg convert tin.ply profile.csv --profile 'lines.gpkg|layername=valleys'\n");
   command->callback([a, command] { run_convert(*command, *a); });
 }
 

@@ -56,6 +56,10 @@ void add_drain_command(CLI::App& app) {
   command->add_option("--report", a->config.report_path, "JSON report; - for stdout");
   command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
   add_common_options(*command, a->common);
+  add_examples(*command,
+               "  thalweg drain tin.ply water.gpkg --seed-spacing 50 --report water.json\n"
+               "  thalweg drain tin.ply dry.gpkg --condition monotone-valleys,fill,breach "
+               "--conditioned conditioned.ply\n");
   command->callback([a, command] {
     for (const std::string& file : a->outlets) a->config.outlets.push_back(parse_source(file));
     for (const std::string& file : a->seeds) a->config.seeds.push_back(parse_source(file));

@@ -29,6 +29,9 @@ void add_info_command(CLI::App& app) {
   command->add_option("--volume-between", a->volumes.between,
                       "volume above and below another TIN of the same CRS, where both are");
   add_common_options(*command, a->common);
+  add_examples(*command,
+               "  thalweg info tin.ply\n"
+               "  thalweg info tin.ply -f json --volume-above 450 --volume-between before.ply\n");
   command->callback([a, command] {
     if (command->count("--volume-above") > 0) a->volumes.above = a->above;
     const TinInfo info = inspect_tin(a->input, progress_of(a->common), a->volumes);
@@ -53,6 +56,9 @@ void add_view_command(CLI::App& app) {
       ->check(CLI::Range(400, 8000));
   command->add_flag("--overwrite", a->config.overwrite, "replace an existing output");
   add_common_options(*command, a->common);
+  add_examples(*command,
+               "  thalweg view tin.ply view.svg\n"
+               "  thalweg view --compare before.ply tin.ply difference.png\n");
   command->callback([a] {
     if (a->before.empty()) {
       if (a->width_px) a->config.width_px = *a->width_px;

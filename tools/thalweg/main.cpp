@@ -121,6 +121,13 @@ int run(int argc, char** argv) {
     app.parse(normalise(argc, argv));
   } catch (const CLI::Success& success) {
     return app.exit(success);
+  } catch (const CLI::RequiredError& error) {
+    // CLI11 says that one is required, too, where the word is not the name of any.
+    const std::string word = argc > 1 ? argv[1] : "";
+    if (app.get_subcommands().empty() && !word.empty() && word[0] != '-') {
+      return fail("usage", "there is no command '" + word + "'; thalweg --help lists them", kUsage);
+    }
+    return fail("usage", std::string(error.what()) + " (see --help)", kUsage);
   } catch (const CLI::ParseError& error) {
     return fail("usage", std::string(error.what()) + " (see --help)", kUsage);
   }
@@ -128,6 +135,10 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
+void add_examples(CLI::App& command, const std::string& lines) {
+  command.footer("Examples:\n" + lines + "\n" + command.get_footer());
+}
 
 void add_common_options(CLI::App& command, Common& common) {
   command.set_version_flag("--version", "thalweg " + version());

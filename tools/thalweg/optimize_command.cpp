@@ -26,6 +26,9 @@ void add_optimize_command(CLI::App& app) {
   add_condition_options(*command, a->condition, kWhenConditioned);
   add_output_options(*command, a->config.output);
   add_common_options(*command, a->common);
+  add_examples(*command,
+               "  thalweg optimize tin.ply smooth.ply --optimize normal-angle-squares\n"
+               "  thalweg optimize tin.ply tin.xml --of LandXML --report -\n");
   command->callback([a, command] {
     a->config.labelling = parse_labelling(a->labelling);
     a->config.condition = parse_condition(*command, a->condition, {});

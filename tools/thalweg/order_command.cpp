@@ -1,5 +1,6 @@
 // thalweg order: constrained orders of triangles, all triangles and useful edges of an order, quadrilaterals.
 #include "command.hpp"
+#include "pipeline/labelling_options.hpp"
 #include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -82,8 +83,10 @@ void add_order_command(CLI::App& app) {
   command->add_option(
       "--picture", a->config.picture_path,
       "picture of the triangle, which vertices count under each definition: .png, .svg, .pdf");
-  command->add_option("--definition", a->definition, "which constrained order (default: sees-opp)");
-  command->add_option("--order", a->order, "largest order of what is listed and counted (default: 1)");
+  command->add_option("--definition", a->definition, "which constrained order: " + definition_names())
+      ->capture_default_str();
+  command->add_option("--order", a->order, "largest order of what is listed and counted")
+      ->capture_default_str();
   command->add_option("--list-triangles", a->config.triangles_path,
                       "CSV a,b,c,order of every valid triangle of that order");
   command->add_option("--list-edges", a->config.edges_path,
@@ -96,6 +99,10 @@ void add_order_command(CLI::App& app) {
                       "CSV s,u,t,v,delaunay of the first-order quadrilaterals");
   command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
   add_common_options(*command, a->common);
+  add_examples(*command,
+               "  thalweg order points.csv --triangle 0,1,2 -f json\n"
+               "  thalweg order points.csv --valleys 'lines.gpkg|layername=valleys' --order 2 "
+               "--list-triangles triangles.csv\n");
   command->callback([a] { run_order(*a); });
 }
 

@@ -1,5 +1,6 @@
 // thalweg verify: a TIN re-checked by slow and plain code.
 #include "command.hpp"
+#include "pipeline/labelling_options.hpp"
 #include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -28,8 +29,9 @@ void add_verify_command(CLI::App& app) {
   command->add_option("--report", a->config.report_path, "the JSON report whose claims are checked");
   command->add_option("--proof", a->config.proof_path,
                       "the proof that --proof of build wrote, checked step by step; needs --report");
-  command->add_option("--definition", a->definition,
-                      "which constrained order (default: the report's, else sees-opp)");
+  command->add_option(
+      "--definition", a->definition,
+      "which constrained order (default: the report's, else sees-opp): " + definition_names());
   command
       ->add_option("--order", a->config.order, "largest order of a triangle (default: the report's, else 1)")
       ->check(CLI::Range(0U, 1000U));
@@ -42,6 +44,7 @@ void add_verify_command(CLI::App& app) {
   add_source_options(*command, a->sources, a->config.read);
   command->add_option("--snap", a->config.snap_m, "as given to build, metres")->check(CLI::NonNegativeNumber);
   add_common_options(*command, a->common);
+  add_examples(*command, "  thalweg verify tin.ply --report report.json --points points.csv\n");
   command->callback([a] {
     if (!a->reference.empty()) a->config.reference = parse_source(a->reference);
     for (const std::string& file : a->points) a->config.points.push_back(parse_source(file));

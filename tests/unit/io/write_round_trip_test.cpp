@@ -159,8 +159,11 @@ TEST(WriteTin, SidecarsBelongToTheOutput) {
   expect_error(ErrorCode::OutputExists, {"a.prj"},
                [&] { write_file(folder.file("a.obj"), {.tin = tin, .crs_authority = "EPSG:32611"}); });
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.2dm", "a.prj"}));
+  // With the same CRS they share it.
+  write_file(folder.file("a.off"), {.tin = tin, .crs_authority = "EPSG:28992"});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.2dm", "a.off", "a.prj"}));
   write_file(folder.file("a.2dm"), {.tin = tin}, {}, Overwrite::Yes);
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.2dm"});
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.2dm", "a.off"}));
 }
 
 TEST(WriteTin, RefusalsListWhatIsKnown) {

@@ -8,7 +8,8 @@ from qgis.core import (QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessi
 
 from .style import LayerStyle
 
-MESHES = ("PLY mesh (*.ply);;UGRID mesh (*.nc);;SMS mesh (*.2dm);;LandXML surface (*.xml);;VTK grid (*.vtu);;"
+# The first is the default: QGIS colours a UGRID mesh by its heights, but no PLY that holds constraint edges.
+MESHES = ("UGRID mesh (*.nc);;PLY mesh (*.ply);;SMS mesh (*.2dm);;LandXML surface (*.xml);;VTK grid (*.vtu);;"
           "Wavefront object (*.obj);;Object file format (*.off);;Stereolithography (*.stl);;glTF binary (*.glb)")
 _FORMATS = ["gpkg", "shp", "geojson", "fgb"]
 

@@ -9,7 +9,7 @@ from qgis.core import (QgsProcessing, QgsProcessingException, QgsProcessingParam
 from .algorithm import MESHES, ThalwegAlgorithm
 from .program import run
 
-DEFINITIONS = ["sees-opp", "std", "conn", "path", "pathcon", "sees-triang", "sees-vtx", "sees-pt"]
+DEFINITIONS = ["sees-opp", "std", "pathcon", "sees-triang", "sees-vtx", "conf-edge", "sees-3vtx", "empty-quad"]
 CROSSINGS = ["auto", "error", "lower", "higher", "mean", "first", "last"]
 DUPLICATES = ["first", "last", "lowest", "highest", "mean"]
 NODATA = ["bridge-holes", "bridge-all", "bridge-none"]

@@ -1,7 +1,9 @@
-"""How outputs look when QGIS loads them: the mesh with its triangles, lines by kind, pits, conflicts, flow."""
+"""How outputs look when QGIS loads them: the mesh by height with its triangles, lines by kind, pits, conflicts, flow."""
 
-from qgis.core import (QgsFillSymbol, QgsLineSymbol, QgsMapLayer, QgsMarkerSymbol, QgsProcessingLayerPostProcessorInterface,
+from qgis.core import (QgsColorRampShader, QgsFillSymbol, QgsGradientColorRamp, QgsGradientStop, QgsLineSymbol, QgsMapLayer,
+                       QgsMarkerSymbol, QgsMeshDatasetIndex, QgsProcessingLayerPostProcessorInterface,
                        QgsRuleBasedRenderer, QgsSingleSymbolRenderer)
+from qgis.PyQt.QtGui import QColor
 
 # An edge can be of several kinds; the first that it is says how it is drawn.
 _KINDS = [("valley", "Valleys", "#1f6fd0", 0.7), ("ridge", "Ridges", "#8a4b08", 0.7), ("lake", "Lakes", "#17a2b8", 0.6),
@@ -46,6 +48,36 @@ RENDERERS = {
 }
 
 
+# From valleys to summits.
+_HEIGHTS = [(0, "#5b8c5a"), (0.3, "#b9cc8f"), (0.55, "#e8dba8"), (0.8, "#b8936a"), (1, "#f4f0ea")]
+
+
+def _style_mesh(layer):
+    """Heights as colours, triangles as thin lines. QGIS draws no colours where a mesh has edges of its own."""
+    colours = layer.meshEdgeCount() == 0
+    settings = layer.rendererSettings()
+    native = settings.nativeMeshSettings()
+    native.setEnabled(True)
+    native.setColor(QColor(60, 60, 60, 110 if colours else 255))
+    native.setLineWidth(0.12)
+    settings.setNativeMeshSettings(native)
+    for group in layer.datasetGroupsIndexes() if colours else []:
+        of_group = layer.datasetGroupMetadata(QgsMeshDatasetIndex(group, 0))
+        if of_group.name() != "Bed Elevation" or not of_group.minimum() < of_group.maximum():
+            continue
+        stops = [QgsGradientStop(at, QColor(color)) for at, color in _HEIGHTS[1:-1]]
+        ramp = QgsGradientColorRamp(QColor(_HEIGHTS[0][1]), QColor(_HEIGHTS[-1][1]), False, stops)
+        shader = QgsColorRampShader(of_group.minimum(), of_group.maximum(), ramp, QgsColorRampShader.Interpolated)
+        shader.classifyColorRamp(len(_HEIGHTS) * 4, -1)
+        scalar = settings.scalarSettings(group)
+        scalar.setColorRampShader(shader)
+        scalar.setClassificationMinimumMaximum(of_group.minimum(), of_group.maximum())
+        settings.setScalarSettings(group, scalar)
+        settings.setActiveScalarDatasetGroup(group)
+        break
+    layer.setRendererSettings(settings)
+
+
 class LayerStyle(QgsProcessingLayerPostProcessorInterface):
     """Styles one layer once it is loaded."""
 
@@ -60,11 +92,7 @@ class LayerStyle(QgsProcessingLayerPostProcessorInterface):
         if layer is None:
             return
         if layer.type() == QgsMapLayer.MeshLayer:
-            settings = layer.rendererSettings()
-            native = settings.nativeMeshSettings()
-            native.setEnabled(True)
-            settings.setNativeMeshSettings(native)
-            layer.setRendererSettings(settings)
+            _style_mesh(layer)
         elif self.name in RENDERERS:
             layer.setRenderer(RENDERERS[self.name]())
         layer.triggerRepaint()
