@@ -1,8 +1,9 @@
 // LAS 1.2 to 1.4, point formats 0 to 10. Based on: ASPRS, LAS Specification 1.4 - R15, 2019.
 //
 // 1. The header tells where points start, their format and number, and scale and offset of the coordinates.
-// 2. The CRS stands in variable length records: WKT (record 2112), or GeoTIFF keys (34735) that name EPSG
-// codes.
+// 2. The CRS stands in variable length records: WKT (record 2112), or GeoTIFF keys (34735, with 34736, 34737)
+// that name EPSG codes or, user-defined, describe it by parameters. WKT is the surer one: libLAS, which wrote
+// its own record of it, gave the keys of a projection in feet its false easting in metres.
 // 3. Points are read in blocks. A coordinate is X * scale + offset; where the scale is 1 / n and the offset a
 //    whole number of n-ths, as it nearly always is, (X + offset n) / n rounds once and so gives the very
 //    double of the decimal number that was measured.
@@ -10,6 +11,7 @@
 #include "io/las_points.hpp"
 
 #include "io/gdal_session.hpp"
+#include "io/geotiff_keys.hpp"
 #include "io/point_collector.hpp"
 #include "io/spatial_reference.hpp"
 
@@ -42,6 +44,7 @@ class Bytes {
  public:
   explicit Bytes(std::vector<unsigned char> data) : data_(std::move(data)) {}
   [[nodiscard]] std::size_t size() const { return data_.size(); }
+  [[nodiscard]] const std::vector<unsigned char>& all() const { return data_; }
   [[nodiscard]] std::uint64_t unsigned_at(std::size_t at, std::size_t width) const {
     std::uint64_t value = 0;
     for (std::size_t i = width; i-- > 0;) value = value << 8U | data_[at + i];
@@ -194,8 +197,9 @@ class LasPoints : public SourceReader {
 
   void read_crs() {
     constexpr std::size_t kHeader = 54;
-    constexpr std::uint64_t kWkt = 2112, kKeys = 34735;
-    std::string wkt, code;
+    constexpr std::uint64_t kWkt = 2112, kKeys = 34735, kDoubles = 34736, kTexts = 34737;
+    std::string wkt;
+    GeotiffKeys keys;
     std::uint64_t at = header_;
     for (std::uint64_t i = 0; i < records_ && at + kHeader <= start_; ++i) {
       VSIFSeekL(file_.get(), at, SEEK_SET);
@@ -204,18 +208,24 @@ class LasPoints : public SourceReader {
       const std::size_t size = static_cast<std::size_t>(head.unsigned_at(20, 2));
       const std::uint64_t id = head.unsigned_at(18, 2);
       at += kHeader + size;
-      if (head.text_at(2, 16) != "LASF_Projection" || (id != kWkt && id != kKeys)) continue;
+      const std::string user = head.text_at(2, 16);
+      if (user != "LASF_Projection" && (user != "liblas" || id != kWkt)) continue;
       const Bytes body = take(size);
       if (body.size() < size) break;
       if (id == kWkt) wkt = body.text_at(0, size);
-      if (id == kKeys) code = code_of_keys(body);
+      if (id == kKeys) keys.directory = body.all();
+      if (id == kDoubles) keys.doubles = body.all();
+      if (id == kTexts) keys.texts = body.all();
     }
-    const std::string& definition = wkt.empty() ? code : wkt;
-    if (!definition.empty()) set_reference(parse_reference(definition));
+    if (!keys.directory.empty()) take_keys(keys);
+    if (wkt.empty()) return;
+    set_reference(parse_reference(wkt));
+    note_.clear();
   }
 
-  // "EPSG:n" or "EPSG:n+m" of a GeoTIFF key directory; a unit of heights that stands alone is set.
-  std::string code_of_keys(const Bytes& keys) {
+  // EPSG codes, n or n+m; or what the parameters describe. A unit of heights that stands alone is set.
+  void take_keys(const GeotiffKeys& all) {
+    const Bytes keys(all.directory);
     constexpr std::size_t kEntry = 8;
     constexpr std::uint64_t kGeographic = 2048, kProjected = 3072, kVertical = 4096, kVerticalUnit = 4099,
                             kUserDefined = 32767;
@@ -236,15 +246,20 @@ class LasPoints : public SourceReader {
     if (unit == kMetre) set_vertical_unit(1);
     if (unit == kFoot) set_vertical_unit(0.3048);
     if (unit == kSurveyFoot) set_vertical_unit(1200.0 / 3937);
-    if (plane == 0) {
-      if (user_defined)
-        note_ = name() + " has a CRS of its own making, which is not understood; give it with --s-crs";
-      return {};
+    if (user_defined) {
+      const OGRSpatialReference described = reference_of_keys(all);
+      set_reference(described);
+      note_ = name() + " has a CRS of its own making, " +
+              (described.IsEmpty() ? "which is not understood; give it with --s-crs"
+                                   : "which has no code; check it in the report");
     }
+    if (plane == 0) return;
     // Codes up to 5000 are ellipsoids and datums of old files, not vertical CRSs.
     constexpr std::uint64_t kFirstVertical = 5001;
-    return "EPSG:" + std::to_string(plane) +
-           (vertical >= kFirstVertical ? "+" + std::to_string(vertical) : "");
+    std::string code("EPSG:");
+    code += std::to_string(plane);
+    if (vertical >= kFirstVertical) code += "+" + std::to_string(vertical);
+    set_reference(parse_reference(code));
   }
 
   [[nodiscard]] bool is_withheld(const Bytes& block, std::size_t at) const {

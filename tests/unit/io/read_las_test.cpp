@@ -22,10 +22,9 @@ class LasFile {
   LasFile(unsigned minor, unsigned format, std::size_t record)
       : minor_(minor), format_(format), record_(record) {}
 
-  LasFile& crs_record(std::uint16_t id, const std::string& body) {
+  LasFile& crs_record(std::uint16_t id, const std::string& body, std::string user = "LASF_Projection") {
     ++records_;
     put(vlrs_, 0, 2);
-    std::string user = "LASF_Projection";
     user.resize(16);
     vlrs_ += user;
     put(vlrs_, id, 2);
@@ -155,6 +154,40 @@ TEST_F(ReadLas, CrsOfKeysAndOfWkt) {
   const std::string feet = geo_keys({{3072, 32632}, {4099, 9002}});
   result = read({write("c.las", LasFile(2, 0, 20).crs_record(34735, feet).bytes(kPoints, 0.01, 0))});
   EXPECT_EQ(result.crs.vertical_metres_per_unit, 0.3048);
+}
+
+// A transverse Mercator in feet, of parameters: false easting 1000 ft, central meridian 9, scale 0.9999.
+TEST_F(ReadLas, CrsOfParameters) {
+  constexpr std::uint16_t kDoubles = 34736, kUser = 32767;
+  std::string keys, doubles;
+  for (const std::uint16_t word : std::vector<std::uint16_t>{
+           1,    1,        0, 10,                               // version, number of keys
+           1024, 0,        1, 1,     2048, 0,        1, 4258,   // projected, of ETRS89
+           3072, 0,        1, kUser, 3074, 0,        1, kUser,  // no code
+           3075, 0,        1, 1,     3076, 0,        1, 9002,   // transverse Mercator, international feet
+           3080, kDoubles, 1, 0,     3081, kDoubles, 1, 1,      // its origin
+           3082, kDoubles, 1, 2,     3092, kDoubles, 1, 3}) {
+    LasFile::put(keys, word, 2);
+  }
+  for (const double value : {9.0, 0.0, 1000.0, 0.9999})
+    LasFile::put(doubles, std::bit_cast<std::uint64_t>(value), 8);
+  LasFile file(2, 0, 20);
+  file.crs_record(34735, keys).crs_record(kDoubles, doubles);
+  ReadResult result = read({write("a.las", file.bytes(kPoints, 0.01, 0))});
+  EXPECT_EQ(result.crs.horizontal_metres_per_unit, 0.3048);
+  EXPECT_THAT(result.crs.wkt, testing::HasSubstr("0.9999"));
+  EXPECT_THAT(result.crs.wkt, testing::HasSubstr("304.8"));
+  EXPECT_THAT(result.notes, testing::Contains(testing::HasSubstr("no code")));
+
+  // WKT goes before, libLAS's record too; and keys that make no sense are said to.
+  file.crs_record(2112, describe_crs("EPSG:2994").wkt, "liblas");
+  result = read({write("b.las", file.bytes(kPoints, 0.01, 0))});
+  EXPECT_EQ(result.crs.authority, "EPSG:2994");
+  EXPECT_THAT(result.notes, testing::Not(testing::Contains(testing::HasSubstr("own making"))));
+  const std::string alone = geo_keys({{1024, 1}, {3072, kUser}});
+  result = read({write("c.las", LasFile(2, 0, 20).crs_record(34735, alone).bytes(kPoints, 0.01, 0))});
+  EXPECT_FALSE(result.crs.known);
+  EXPECT_THAT(result.notes, testing::Contains(testing::HasSubstr("--s-crs")));
 }
 
 TEST_F(ReadLas, RefusesWithTheRemedy) {
