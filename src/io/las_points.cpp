@@ -12,6 +12,7 @@
 
 #include "io/gdal_session.hpp"
 #include "io/geotiff_keys.hpp"
+#include "io/laz_points.hpp"
 #include "io/point_collector.hpp"
 #include "io/spatial_reference.hpp"
 
@@ -110,10 +111,56 @@ class LasPoints : public SourceReader {
     if (!run.options.z_field.empty()) run.z_field.refusals.push_back(name() + " is LAS and has no fields");
     run.las_filter.taken = true;
     if (!note_.empty()) run.note(note_);
-    expect_points(run, static_cast<double>(std::min(count_, file_size_ / record_)));
+    const std::uint64_t room = is_compressed_ ? count_ : file_size_ / record_;
+    expect_points(run, static_cast<double>(std::min(count_, room)));
     PointCollector points(run, transform);
-    constexpr std::uint64_t kBlock = 1U << 15U;
+    Counts counts;
+    if (is_compressed_) {
+      read_compressed(run, points, counts);
+    } else {
+      read_records(run, points, counts);
+    }
+    points.finish();
+    if (counts.withheld > 0)
+      run.note(name() + ": " + std::to_string(counts.withheld) + " points marked as withheld are left out");
+    if (counts.left_out > 0) {
+      run.note(name() + ": " + std::to_string(counts.left_out) + " of " + std::to_string(count_) +
+               " points are of other classes or returns than asked for");
+    }
+  }
+
+ private:
+  struct Counts {
     std::uint64_t withheld = 0, left_out = 0;
+  };
+
+  void take_record(const LasRecord& record, const ReadOptions& options, PointCollector& points,
+                   Counts& counts) const {
+    if (record.is_withheld) {
+      ++counts.withheld;
+    } else if (!is_wanted(record, options)) {
+      ++counts.left_out;
+    } else {
+      points.add({x_.coordinate(record.xyz[0]), y_.coordinate(record.xyz[1])}, z_.coordinate(record.xyz[2]));
+    }
+  }
+
+  void read_compressed(ReadContext& run, PointCollector& points, Counts& counts) const {
+    constexpr std::uint64_t kBlock = 1U << 15U;
+    const LazHeader header{{x_.scale, y_.scale, z_.scale}, {x_.offset, y_.offset, z_.offset}, is_new_};
+    std::uint64_t done = 0;
+    read_laz(spec().path, header, [&](const LasRecord& record) {
+      if (done++ % kBlock == 0) run.advance(static_cast<double>(done) / static_cast<double>(count_ + 1));
+      take_record(record, run.options, points, counts);
+    });
+    if (done != count_) {
+      fail(ErrorCode::BadFormat,
+           "ends after point " + std::to_string(done) + " of " + std::to_string(count_) + "; copy it again");
+    }
+  }
+
+  void read_records(ReadContext& run, PointCollector& points, Counts& counts) const {
+    constexpr std::uint64_t kBlock = 1U << 15U;
     VSIFSeekL(file_.get(), start_, SEEK_SET);
     for (std::uint64_t first = 0; first < count_; first += kBlock) {
       run.advance(static_cast<double>(first) / static_cast<double>(count_));
@@ -124,27 +171,11 @@ class LasPoints : public SourceReader {
                                        " of " + std::to_string(count_) + "; copy it again");
       }
       for (std::uint64_t i = 0; i < wanted; ++i) {
-        const std::size_t at = static_cast<std::size_t>(i) * record_;
-        if (is_withheld(block, at)) {
-          ++withheld;
-        } else if (!is_wanted(block, at, run.options)) {
-          ++left_out;
-        } else {
-          points.add({x_.coordinate(block.int_at(at)), y_.coordinate(block.int_at(at + 4))},
-                     z_.coordinate(block.int_at(at + 8)));
-        }
+        take_record(record_at(block, static_cast<std::size_t>(i) * record_), run.options, points, counts);
       }
-    }
-    points.finish();
-    if (withheld > 0)
-      run.note(name() + ": " + std::to_string(withheld) + " points marked as withheld are left out");
-    if (left_out > 0) {
-      run.note(name() + ": " + std::to_string(left_out) + " of " + std::to_string(count_) +
-               " points are of other classes or returns than asked for");
     }
   }
 
- private:
   [[noreturn]] void fail(ErrorCode code, const std::string& what) const {
     throw Error(code, name() + ": " + what);
   }
@@ -172,12 +203,11 @@ class LasPoints : public SourceReader {
     header_ = head.unsigned_at(94, 2);
     start_ = head.unsigned_at(96, 4);
     records_ = head.unsigned_at(100, 4);
-    const unsigned format = head.byte_at(104);
-    if (format >= 64) {
-      fail(ErrorCode::Unsupported,
-           "is compressed (LAZ); unpack it first (laszip -i in.laz -o out.las, or pdal translate in.laz "
-           "out.las)");
-    }
+    // LASzip sets the highest bit of the format, older versions of it the next one.
+    constexpr unsigned kCompressed = 0xc0;
+    is_compressed_ = (head.byte_at(104) & kCompressed) != 0;
+    if (is_compressed_ && !reads_laz()) read_laz(spec().path, {}, {});
+    const unsigned format = head.byte_at(104) & ~kCompressed;
     if (format >= kRecordSizes.size())
       fail(ErrorCode::Unsupported, "has point format " + std::to_string(format) + "; 0 to 10 are read");
     is_new_ = format >= kFirstNewFormat;
@@ -258,32 +288,32 @@ class LasPoints : public SourceReader {
     constexpr std::uint64_t kFirstVertical = 5001;
     std::string code("EPSG:");
     code += std::to_string(plane);
-    if (vertical >= kFirstVertical) code += "+" + std::to_string(vertical);
+    if (vertical >= kFirstVertical) code.append("+").append(std::to_string(vertical));
     set_reference(parse_reference(code));
   }
 
-  [[nodiscard]] bool is_withheld(const Bytes& block, std::size_t at) const {
-    constexpr unsigned kOldBit = 0x80, kNewBit = 0x04;
-    return (block.byte_at(at + 15) & (is_new_ ? kNewBit : kOldBit)) != 0;
+  [[nodiscard]] LasRecord record_at(const Bytes& block, std::size_t at) const {
+    constexpr unsigned kOldWithheld = 0x80, kNewWithheld = 0x04, kOldClass = 0x1f;
+    const unsigned flags = block.byte_at(at + 14), next = block.byte_at(at + 15);
+    LasRecord record{{block.int_at(at), block.int_at(at + 4), block.int_at(at + 8)}};
+    record.return_number = is_new_ ? flags & 0x0fU : flags & 0x07U;
+    record.returns = is_new_ ? flags >> 4U : flags >> 3U & 0x07U;
+    record.point_class = is_new_ ? block.byte_at(at + 16) : next & kOldClass;
+    record.is_withheld = (next & (is_new_ ? kNewWithheld : kOldWithheld)) != 0;
+    return record;
   }
 
-  [[nodiscard]] bool is_wanted(const Bytes& block, std::size_t at, const ReadOptions& options) const {
-    if (!options.classes.empty()) {
-      constexpr unsigned kOldClass = 0x1f;
-      const unsigned found = is_new_ ? block.byte_at(at + 16) : block.byte_at(at + 15) & kOldClass;
-      if (std::find(options.classes.begin(), options.classes.end(), found) == options.classes.end())
-        return false;
-    }
-    const unsigned flags = block.byte_at(at + 14);
-    const unsigned number = is_new_ ? flags & 0x0fU : flags & 0x07U;
-    const unsigned of = is_new_ ? flags >> 4U : flags >> 3U & 0x07U;
+  [[nodiscard]] static bool is_wanted(const LasRecord& record, const ReadOptions& options) {
+    const auto& classes = options.classes;
+    if (!classes.empty() && std::find(classes.begin(), classes.end(), record.point_class) == classes.end())
+      return false;
     switch (options.returns) {
       case LasReturns::All:
         return true;
       case LasReturns::First:
-        return number <= 1;
+        return record.return_number <= 1;
       case LasReturns::Last:
-        return number >= of;
+        return record.return_number >= record.returns;
     }
     return true;
   }
@@ -292,6 +322,7 @@ class LasPoints : public SourceReader {
   std::uint64_t file_size_ = 0, header_ = 0, start_ = 0, records_ = 0, count_ = 0;
   std::size_t record_ = 1;
   bool is_new_ = false;
+  bool is_compressed_ = false;
   Axis x_, y_, z_;
   std::string note_;
 };

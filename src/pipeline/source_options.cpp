@@ -67,7 +67,7 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
       ->default_str("ellipsoid");
   command.add_option("--classes", read.classes, "LAS: classes that are points, as 2,9 (2 is ground)")
       ->delimiter(',')
-      ->expected(1)
+      ->expected(1, 256)
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
   command.add_option("--returns", read.returns, "LAS: all, first, last returns of a pulse")

@@ -2,7 +2,7 @@
 
 `violations(root)` reads the project at `root` and returns one line for each broken law:
   1. A module includes only modules of lower layers; modules of one layer do not see each other.
-  2. A foreign library is included only behind its fence (CGAL, GDAL, GeographicLib, Cairo).
+  2. A foreign library is included only behind its fence (CGAL, GDAL, PDAL, GeographicLib, Cairo).
   3. Headers under include/ are plain: the C++ (of .h: the C) standard library and other public headers.
   4. The library, under src/ and include/, neither prints nor ends the process.
   5. A header has fewer than 150 lines, a source fewer than 500.
@@ -34,6 +34,7 @@ FENCES = {
     "GDAL": (re.compile(r"(gdal|ogr|cpl_|vrt|proj)[a-z0-9_]*\.h"), {"io"}),
     "GeographicLib": (re.compile(r"GeographicLib/"), {"geodesy"}),
     "Cairo": (re.compile(r"cairo"), {"io"}),
+    "PDAL": (re.compile(r"pdal/"), {"io"}),
     "NetCDF": (re.compile(r"netcdf"), {"io"}),
 }
 STANDARD_HEADER = re.compile(r"[a-z_0-9]+")

@@ -33,6 +33,7 @@ BROKEN = [
     ("src/delaunay/read.cpp", "#include <ogrsf_frmts.h>", "GDAL belongs to io"),
     ("src/io/geodesic.cpp", "#include <GeographicLib/Geodesic.hpp>", "GeographicLib belongs to geodesy"),
     ("src/terrain/draw.cpp", "#include <cairo/cairo.h>", "Cairo belongs to io"),
+    ("src/mesh/cloud.cpp", "#include <pdal/Options.hpp>", "PDAL belongs to io"),
     ("tools/thalweg/read.cpp", "#include <cpl_conv.h>", "GDAL belongs to io"),
     ("tests/unit/order/oracle.cpp", "#include <CGAL/Gmpq.h>", "CGAL belongs to delaunay and geometry"),
     ("include/thalweg/io/raster.hpp", "#include <gdal.h>", "only the standard library"),

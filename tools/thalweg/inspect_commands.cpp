@@ -84,7 +84,9 @@ std::string formats_text() {
   }
   text +=
       "\nPoints: any OGR point layer; text (.csv .xyz .txt); any GDAL raster, a point a cell centre;\n"
-      "LAS 1.2 to 1.4, uncompressed; vertices of a mesh.\n"
+      "LAS 1.2 to 1.4, " +
+      std::string(reads_laz() ? "compressed (LAZ) or not" : "uncompressed (built without PDAL: no LAZ)") +
+      "; vertices of a mesh.\n"
       "Lines and areas: any OGR line or polygon layer. Pictures: .png .svg .pdf.\n";
   return text;
 }
@@ -99,11 +101,12 @@ std::string formats_json() {
                     {"reads", format.reads},
                     {"writes", format.writes}});
   }
-  const Json json = {
-      {"tin", tins},
-      {"points", {"OGR point layers", "text (.csv .xyz .txt)", "GDAL rasters", "LAS 1.2 to 1.4"}},
-      {"lines", {"OGR line and polygon layers"}},
-      {"pictures", {".png", ".svg", ".pdf"}}};
+  Json points = {"OGR point layers", "text (.csv .xyz .txt)", "GDAL rasters", "LAS 1.2 to 1.4"};
+  if (reads_laz()) points.push_back("LAZ");
+  const Json json = {{"tin", tins},
+                     {"points", points},
+                     {"lines", {"OGR line and polygon layers"}},
+                     {"pictures", {".png", ".svg", ".pdf"}}};
   return json.dump(2) + "\n";
 }
 

@@ -17,4 +17,7 @@ struct FormatInfo {
   std::vector<std::string> creation_options;  ///< "EDGES=YES|NO", the default first
 };
 
+/// Whether points are read of compressed LAS files (LAZ): where Thalweg was built with PDAL.
+bool reads_laz();
+
 }  // namespace thalweg
