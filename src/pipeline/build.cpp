@@ -70,6 +70,18 @@ void refuse_pole(const Terrain& terrain, const std::vector<bool>& keep, const Pl
   }
 }
 
+/// Meshes keep the longitudes that came in, which jump at the antimeridian, and most programs know no globe.
+void note_antimeridian(const Terrain& terrain, const Plane& plane, Report& report) {
+  if (!plane.projected()) return;
+  const auto by_longitude = [](Point2 a, Point2 b) { return a.x < b.x; };
+  const auto [west, east] = std::minmax_element(terrain.written.begin(), terrain.written.end(), by_longitude);
+  if (west == terrain.written.end() || east->x - west->x <= plane.x_period() / 2) return;
+  report.notes.emplace_back(
+      "the TIN crosses the antimeridian: a mesh keeps the longitudes that came in, and QGIS and others draw its "
+      "triangles there around the whole map; a projected CRS (--t-crs), longitudes from 0 to 360, or vector "
+      "layers do not jump");
+}
+
 /// Which triangles of the ground are surface.
 std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& nodata, const Plane& plane,
                                     std::optional<double> max_edge_m, const Progress& progress) {
@@ -176,6 +188,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   terrain.ground = std::move(ground.tin);
   terrain.keep = surface_triangles(terrain, read.nodata, plane, config.max_edge_m, progress);
   note_lost_edges(terrain, report);
+  note_antimeridian(terrain, plane, report);
   report.tin.dropped_rim_triangles =
       static_cast<std::size_t>(std::count(terrain.keep.begin(), terrain.keep.end(), false));
   const std::size_t vertices = terrain.ground.vertex_count();
