@@ -18,6 +18,7 @@ namespace thalweg {
 
 struct RowFilter::Query {
   char separator = ',';
+  char decimal = '.';
   OGRFeatureDefn* definition = new OGRFeatureDefn("rows");  // counts its references
   std::unique_ptr<OGRFeature> feature;
   OGRFeatureQuery query;
@@ -47,7 +48,7 @@ std::vector<bool> find_numeric_columns(const TextFormat& format, std::string_vie
     for (std::size_t i = 0; i < std::min(fields.size(), numbers.size()); ++i) {
       if (fields[i].empty()) continue;
       filled[i] = true;
-      if (numbers[i] && !to_number(fields[i])) numbers[i] = false;
+      if (numbers[i] && !to_number(fields[i], format.decimal)) numbers[i] = false;
     }
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = numbers[i] && filled[i];
@@ -61,6 +62,7 @@ RowFilter::RowFilter(const TextFormat& format, std::string_view sample, const st
     : name_(std::move(name)), query_(std::make_unique<Query>()) {
   GdalSession session;
   query_->separator = format.separator;
+  query_->decimal = format.decimal;
   const std::vector<bool> numbers = find_numeric_columns(format, sample);
   for (std::size_t i = 0; i < format.names.size(); ++i) {
     OGRFieldDefn field(format.names[i].c_str(), numbers[i] ? OFTReal : OFTString);
@@ -91,7 +93,7 @@ bool RowFilter::accepts(std::string_view row, std::size_t number) {
       feature.SetFieldNull(column);
     } else if (feature.GetFieldDefnRef(column)->GetType() == OFTString) {
       feature.SetField(column, std::string(field).c_str());
-    } else if (const std::optional<double> value = to_number(field)) {
+    } else if (const std::optional<double> value = to_number(field, query_->decimal)) {
       feature.SetField(column, *value);
     } else {
       throw Error(ErrorCode::BadFormat, name_ + " row " + std::to_string(number) + ": column " +

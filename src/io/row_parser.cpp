@@ -1,8 +1,8 @@
 // Coordinates out of rows of text, fast.
 //
 // One walk along the row: fields before a wanted column are passed over, wanted ones go through
-// std::from_chars, and the walk ends with the last wanted column. Only if that fails the row is split and
-// looked at field by field.
+// std::from_chars, and the walk ends with the last wanted column. Only if that fails, or decimals are written
+// with a comma, the row is split and looked at field by field.
 #include "io/row_parser.hpp"
 
 #include "io/source_reader.hpp"
@@ -20,6 +20,7 @@ namespace thalweg {
 RowParser::RowParser(const TextFormat& format, std::string name, const ReadOptions& options)
     : name_(std::move(name)),
       separator_(format.separator),
+      decimal_(format.decimal),
       heights_(options.heights),
       names_(format.names),
       form_(options.coords.value_or(PositionForm::Dms)),
@@ -76,7 +77,7 @@ RowParser::Parsed RowParser::parse_field(const char* p, const char* end) const {
 }
 
 std::optional<RowParser::Coordinates> RowParser::parse(const char* begin, const char* end) const {
-  if (!position_.empty()) return std::nullopt;
+  if (!position_.empty() || decimal_ != '.') return std::nullopt;
   Coordinates coordinates{};
   const char* p = skip_blanks(begin, end);
   std::size_t index = 0;
@@ -120,7 +121,7 @@ RowParser::Coordinates RowParser::parse_or_explain(std::string_view row, std::si
     const bool optional = column.axis == 2 && heights_ == HeightRule::Optional;
     if (optional && (column.index >= fields.size() || fields[column.index].empty())) continue;
     const std::string_view field = field_at(fields, column.index, where);
-    const std::optional<double> value = to_number(field);
+    const std::optional<double> value = to_number(field, decimal_);
     if (!value || !is_usable(*value)) throw explain(field, column, where);
     coordinates[column.axis] = *value;
   }
@@ -144,15 +145,19 @@ Error RowParser::explain(std::string_view field, const Column& column, const std
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   const bool whole = end == field.data() + field.size();
+  const bool other_decimal = decimal_ == ',' ? field.find('.') != std::string_view::npos
+                                             : error == std::errc() && *end == ',' && separator_ != ',';
+  if (other_decimal && !(whole && decimal_ == '.')) {
+    return {ErrorCode::BadFormat, place + " holds \"" + shown +
+                                      "\"; write all decimals of a file with a point, or all with a comma"};
+  }
   if (whole && error != std::errc::invalid_argument) {
     return {
         ErrorCode::BadCoordinate,
         place + " holds " + shown + ", which is no usable coordinate; correct the row, or put # before it"};
   }
-  const bool decimal_comma = error == std::errc() && *end == ',' && separator_ != ',';
   return {ErrorCode::BadFormat,
-          place + " holds \"" + shown + "\", not a number; " +
-              (decimal_comma ? "write decimals with a point" : "correct the row, or put # before it")};
+          place + " holds \"" + shown + "\", not a number; correct the row, or put # before it"};
 }
 
 }  // namespace thalweg

@@ -22,10 +22,11 @@ class RowParser {
 
   RowParser(const TextFormat& format, std::string name, const ReadOptions& options);
 
-  /// Parses the row [begin, end) without its line feed; none if something is wrong with it, or if its
-  /// position is text.
+  /// Parses the row [begin, end) without its line feed; none if something is wrong with it, if its
+  /// position is text, or if decimals are written with a comma.
   std::optional<Coordinates> parse(const char* begin, const char* end) const;
-  /// What `parse` could not: a position in text; a row whose height is missing, where heights are optional.
+  /// What `parse` could not: a position in text; decimals with a comma; a row whose height is missing, where
+  /// heights are optional.
   /// Throws: the error that names the row, counted from 1, the column, what stands there, and the remedy.
   Coordinates parse_or_explain(std::string_view row, std::size_t number) const;
 
@@ -48,6 +49,7 @@ class RowParser {
 
   std::string name_;
   char separator_;
+  char decimal_;
   HeightRule heights_;
   std::vector<std::string> names_;
   std::vector<Column> columns_;  // of numbers, by index

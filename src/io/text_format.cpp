@@ -6,10 +6,11 @@
 // 2. It is a header if it holds no number, or names x and y. If it holds numbers, the last comment before it
 // is the
 //    header if it has as many fields and names x and y (numpy, CloudCompare).
-// 3. Columns by name. If x and y are not both named, the first three columns are x, y, z, unless a name that
+// 3. Decimals are written with a comma if the first number that has any is, and ; or tabs separate.
+// 4. Columns by name. If x and y are not both named, the first three columns are x, y, z, unless a name that
 // is
 //    known stands in another place than it says.
-// 4. Positions in text (UTM, MGRS) have columns of their own names; z is then named, or follows them.
+// 5. Positions in text (UTM, MGRS) have columns of their own names; z is then named, or follows them.
 #include "io/text_format.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -142,13 +143,30 @@ FirstRow find_first_row(std::string_view rows, const std::string& name) {
   throw Error(ErrorCode::EmptyInput, name + " holds no rows with points");
 }
 
+/// The mark before the decimals of the first number that has some.
+char find_decimal(std::string_view rows, char separator) {
+  if (separator != ';' && separator != '\t') return '.';
+  while (!rows.empty()) {
+    const std::size_t end = rows.find('\n');
+    const std::string_view row = rows.substr(0, end);
+    rows.remove_prefix(std::min(rows.size(), end + 1));
+    if (is_passed_over(row)) continue;
+    for (const std::string_view field : split_row(row, separator)) {
+      for (const char decimal : {'.', ','}) {
+        if (field.find(decimal) != std::string_view::npos && to_number(field, decimal)) return decimal;
+      }
+    }
+  }
+  return '.';
+}
+
 /// Sets names and header_rows. Returns true if the names stand in the file.
 bool find_names(const FirstRow& first, bool text_positions, TextFormat& format) {
   const std::vector<std::string_view> fields = split_row(first.row, format.separator);
   format.header_rows = first.rows_before;
-  const auto is_number = [text_positions](std::string_view field) {
+  const auto is_number = [text_positions, decimal = format.decimal](std::string_view field) {
     const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-    return text_positions ? std::ranges::any_of(field, is_digit) : to_number(field).has_value();
+    return text_positions ? std::ranges::any_of(field, is_digit) : to_number(field, decimal).has_value();
   };
   format.names = to_names(fields);
   if (std::none_of(fields.begin(), fields.end(), is_number) || names_x_and_y(format.names)) {
@@ -256,8 +274,15 @@ std::vector<std::string_view> split_row(std::string_view row, char separator) {
   return fields;
 }
 
-std::optional<double> to_number(std::string_view text) {
+std::optional<double> to_number(std::string_view text, char decimal) {
   text = trim(text);
+  if (decimal == ',' && text.find_first_of(",.") != std::string_view::npos) {
+    std::string with_point(text);
+    const std::size_t comma = with_point.find(',');
+    if (with_point.find('.') != std::string::npos) return std::nullopt;  // thousands, or two ways at once
+    with_point[comma] = '.';
+    return to_number(with_point);
+  }
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -274,6 +299,8 @@ TextFormat detect_format(std::string_view rows, const std::string& name, const R
   const FirstRow first = find_first_row(rows, name);
   TextFormat format;
   format.separator = find_separator(first.row);
+  format.decimal = find_decimal(rows, format.separator);
+  if (format.decimal == ',') format.notes.push_back(name + ": decimals are written with a comma");
   const bool named = find_names(first, options.coords.has_value(), format);
   if (!options.z_field.empty()) {
     format.z = find_field(format.names, options.z_field);

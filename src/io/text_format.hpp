@@ -15,6 +15,7 @@ namespace thalweg {
 /// Separator and columns of a table of points.
 struct TextFormat {
   char separator = ',';  ///< ',', ';', tab; ' ' stands for runs of blanks and tabs
+  char decimal = '.';    ///< or ',', in files that ; or tabs separate
   std::size_t header_rows =
       0;  ///< rows to pass over before the first point, comments and blank rows included
   std::vector<std::string> names;  ///< of the columns; field_1, field_2, ... where the file has none
@@ -31,8 +32,8 @@ struct TextFormat {
 bool is_passed_over(std::string_view row);
 /// The fields of a row, without surrounding blanks and quotes.
 std::vector<std::string_view> split_row(std::string_view row, char separator);
-/// The whole text as a number; none if it is not one.
-std::optional<double> to_number(std::string_view text);
+/// The whole text as a number whose decimals follow `decimal`; none if it is not one.
+std::optional<double> to_number(std::string_view text, char decimal = '.');
 
 /// Finds out separator, header and columns from a file's first rows.
 /// A header is a first row without numbers or with the names of x and y, or a comment right before the first

@@ -89,9 +89,25 @@ TEST_F(ReadText, NamesTheBrokenRow) {
   fails(ErrorCode::BadCoordinate, "1,2,-inf", {"column 3 (z)", "inf"});
   fails(ErrorCode::BadCoordinate, "1e999,2,3", {"column 1 (x)", "1e999"});
   fails(ErrorCode::BadCoordinate, "1e120,2,3", {"column 1 (x)"});
-  expect_error(ErrorCode::BadFormat, {"row 2", "decimals with a point"},
-               [&] { read({write("bad.csv", "x;y;z\n1;2,5;3\n")}); });
+  for (const char* two_ways :
+       {"x;y;z\n1;2.5;3\n1;2,5;3\n", "x;y;z\n1;2,5;3\n1;2.5;3\n", "1;2,5;3\n1;1.234,5;3\n"}) {
+    expect_error(ErrorCode::BadFormat, {"row ", "with a point, or all with a comma"},
+                 [&] { read({write("bad.csv", two_ways)}); });
+  }
   expect_error(ErrorCode::BadFormat, {"row 1", "\"P1\""}, [&] { read({write("bad.csv", "P1,1,2,3\n")}); });
+}
+
+TEST_F(ReadText, DecimalsWithAComma) {
+  const std::vector<Point2> xy = {{4, 2.5}, {-1.25, 7}};
+  for (const char* text : {"z;y;x\n\n3,125;2,5;4\n-2;7;-1,25\n", "4;2,5;3,125\n-1,25;7;-2\n",
+                           "\"x\"\t\"y\"\t\"z\"\n4\t\"2,5\"\t 3,125\r\n-1,25\t7\t-2\r\n"}) {
+    const ReadResult result = read({write("comma.csv", text)});
+    EXPECT_EQ(result.survey.points.xy, xy) << text;
+    EXPECT_THAT(result.survey.points.z, testing::ElementsAre(3.125, -2)) << text;
+    EXPECT_THAT(result.notes, testing::Contains(testing::HasSubstr("written with a comma"))) << text;
+  }
+  const std::string file = write("where.csv", "x;y;z;q\n1;2;3;0,5\n4;5;6;1,5\n");
+  EXPECT_EQ(read({file}, {.where = "q > 1"}).survey.points.xy, (std::vector<Point2>{{4, 5}}));
 }
 
 TEST_F(ReadText, NamesWhatIsNoTable) {
