@@ -1,0 +1,192 @@
+#include "bench/delaunay/inputs.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+#include <fstream>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+namespace thalweg::bench {
+namespace {
+
+constexpr double kSpacing = 30;
+
+/// A value of 0 to 1 for a node of a lattice.
+double node_value(std::int64_t i, std::int64_t j, std::uint64_t octave) {
+  std::uint64_t h = static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15U ^
+                    static_cast<std::uint64_t>(j) * 0xc2b2ae3d27d4eb4fU ^ octave * 0x165667b19e3779f9U;
+  h = (h ^ (h >> 31U)) * 0xbf58476d1ce4e5b9U;
+  h = (h ^ (h >> 29U)) * 0x94d049bb133111ebU;
+  return static_cast<double>((h ^ (h >> 32U)) >> 11U) * 0x1p-53;
+}
+
+/// Bilinear noise, each octave of half the wavelength and 0.6 times the amplitude of the one before.
+double fractal_height(Point2 p) {
+  double height = 0, amplitude = 400, wavelength = 12800;
+  for (std::uint64_t octave = 0; octave < 9; ++octave) {
+    const double x = p.x / wavelength, y = p.y / wavelength;
+    const double i = std::floor(x), j = std::floor(y), fx = x - i, fy = y - j;
+    const auto at = [&](int di, int dj) {
+      return node_value(static_cast<std::int64_t>(i) + di, static_cast<std::int64_t>(j) + dj, octave);
+    };
+    height += amplitude *
+              ((1 - fy) * ((1 - fx) * at(0, 0) + fx * at(1, 0)) + fy * ((1 - fx) * at(0, 1) + fx * at(1, 1)));
+    amplitude *= 0.6;
+    wavelength /= 2;
+  }
+  return height;
+}
+
+void add_lines(Survey& survey, double side) {
+  const auto& xy = survey.points.xy;
+  const double scale = std::min(1.0, std::sqrt(static_cast<double>(xy.size()) / 1e6));
+  const auto columns = static_cast<std::size_t>(std::ceil(250 * scale));
+  const auto rows = static_cast<std::size_t>(std::ceil(200 * scale));
+  std::vector<std::optional<std::pair<std::size_t, std::size_t>>> ends(columns * rows);
+  for (std::size_t i = 0; i < xy.size(); ++i) {
+    const auto along = [side](double value, std::size_t cells) {
+      return std::min(cells - 1, static_cast<std::size_t>(value / side * static_cast<double>(cells)));
+    };
+    auto& cell = ends[along(xy[i].y, rows) * columns + along(xy[i].x, columns)];
+    if (!cell) cell.emplace(i, i);
+    if (xy[i].x < xy[cell->first].x) cell->first = i;
+    if (xy[i].x > xy[cell->second].x) cell->second = i;
+  }
+  const auto& z = survey.points.z;
+  for (const auto& cell : ends) {
+    if (!cell || cell->first == cell->second) continue;
+    const auto [a, b] = *cell;
+    survey.lines.push_back({.kind = EdgeKind::Breakline,
+                            .xy = {xy[a], xy[b]},
+                            .z = {z[a], z[b]},
+                            .source = 0,
+                            .feature = static_cast<std::int64_t>(survey.lines.size()),
+                            .part = 0});
+  }
+}
+
+/// A line of /proc/self/status, in bytes.
+double status_bytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(key)) return 1024 * std::stod(line.substr(key.size() + 1));
+  }
+  return 0;
+}
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel>;
+
+Seconds seconds_of_cgal_points(const Survey& survey) {
+  std::vector<Kernel::Point_2> points;
+  points.reserve(survey.points.xy.size());
+  for (const Point2 p : survey.points.xy) points.emplace_back(p.x, p.y);
+  const Seconds start = Seconds::now();
+  Triangulation cdt;
+  cdt.insert(points.begin(), points.end());
+  const Seconds seconds = Seconds::now() - start;
+  return cdt.number_of_vertices() == 0 ? Seconds{} : seconds;
+}
+
+/// As inserting a range does it, but each vertex is kept for the edges: finding it again would cost more.
+Seconds seconds_of_cgal_edges(const Survey& survey, const std::vector<ConstraintEdge>& edges) {
+  using Numbered = std::pair<Kernel::Point_2, std::uint32_t>;
+  std::vector<Numbered> points;
+  points.reserve(survey.points.xy.size());
+  for (const Point2 p : survey.points.xy) {
+    points.emplace_back(Kernel::Point_2(p.x, p.y), static_cast<std::uint32_t>(points.size()));
+  }
+  const Seconds start = Seconds::now();
+  Triangulation cdt;
+  using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Numbered>>;
+  CGAL::spatial_sort(points.begin(), points.end(), Traits());
+  std::vector<Triangulation::Vertex_handle> vertices(points.size());
+  Triangulation::Face_handle hint;
+  for (const auto& [point, number] : points) {
+    const auto vertex = cdt.insert(point, hint);
+    hint = vertex->face();
+    vertices[number] = vertex;
+  }
+  for (const ConstraintEdge& edge : edges) {
+    cdt.insert_constraint(vertices[edge.a.index()], vertices[edge.b.index()]);
+  }
+  const Seconds seconds = Seconds::now() - start;
+  return cdt.number_of_vertices() == 0 ? Seconds{} : seconds;
+}
+
+}  // namespace
+
+Survey make_survey(InputKind kind, std::size_t points) {
+  std::mt19937_64 engine(1);
+  const auto real = [&engine] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
+  const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(points))));
+  const bool random = kind == InputKind::Uniform || kind == InputKind::Lines;
+  Survey survey;
+  survey.sources = {{"points", ""}};
+  survey.points.runs = {{0, 0}};
+  survey.points.xy.reserve(side * side);
+  survey.points.z.reserve(side * side);
+  for (std::size_t i = 0; i < side * side; ++i) {
+    Point2 p{static_cast<double>(i % side), static_cast<double>(i / side)};
+    if (kind == InputKind::Jittered) p = {p.x + 0.8 * real() - 0.4, p.y + 0.8 * real() - 0.4};
+    if (random) p = {static_cast<double>(side) * real(), static_cast<double>(side) * real()};
+    p = {kSpacing * p.x, kSpacing * p.y};
+    survey.points.z.push_back(fractal_height(p));
+    if (kind == InputKind::Lattice) p = {500000 + p.x, 5200000 + p.y};
+    survey.points.xy.push_back(p);
+  }
+  if (kind == InputKind::Lines) add_lines(survey, kSpacing * static_cast<double>(side));
+  return survey;
+}
+
+std::vector<ConstraintEdge> line_edges(const Survey& survey) {
+  const auto& xy = survey.points.xy;
+  std::vector<std::uint32_t> order(xy.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+  if (!survey.lines.empty()) {
+    std::ranges::sort(order, {}, [&xy](std::uint32_t i) { return std::pair(xy[i].x, xy[i].y); });
+  }
+  const auto find = [&](Point2 p) {
+    const auto it = std::ranges::lower_bound(order, std::pair(p.x, p.y), {},
+                                             [&xy](std::uint32_t i) { return std::pair(xy[i].x, xy[i].y); });
+    return VertexId{*it};
+  };
+  std::vector<ConstraintEdge> edges;
+  for (const SurveyLine& line : survey.lines) {
+    edges.push_back({.a = find(line.xy[0]), .b = find(line.xy[1]), .kind = line.kind});
+  }
+  return edges;
+}
+
+Seconds Seconds::now() {
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
+          static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+}
+
+Seconds seconds_of_cgal(const Survey& survey, const std::vector<ConstraintEdge>& edges) {
+  return edges.empty() ? seconds_of_cgal_points(survey) : seconds_of_cgal_edges(survey, edges);
+}
+
+double start_peak() {
+  malloc_trim(0);
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return status_bytes("VmRSS");
+}
+
+double peak_bytes() {
+  return status_bytes("VmHWM");
+}
+
+}  // namespace thalweg::bench
