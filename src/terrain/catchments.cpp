@@ -1,277 +1,130 @@
 // Catchments as polygons.
 //
-// 1. Borders: in each triangle the lines that end pieces of its In sides, each from the piece below or from
-// the
-//    corner at which water parts, up to the side; where such a line meets the upper corner, up to it. On each
-//    edge whose two sides belong to different ground (a ridge, the rim, beside level triangles): the parts of
-//    it where they do.
-// 2. Every border gives a directed segment to the ground on its left, the reverse one to that on its right.
+// 1. Every border gives a directed segment to the ground on its left, the reverse one to that on its right.
 //    Ends are vertices and ends of pieces, by number, so segments chain without a look at coordinates; where
 //    a ground touches itself at a point the next segment is the first clockwise from the one that comes in.
+// 2. The segments of each group are sorted by where they start, and chained, on all threads.
 // 3. A chain that meets a point again closes a ring there. Rings that run clockwise are holes of the smallest
 //    ring around them.
-#include "terrain/flow_graph.hpp"
+#include "base/parallel.hpp"
+#include "terrain/catchment_borders.hpp"
 
 #include <thalweg/terrain/catchments.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <tuple>
-#include <unordered_map>
 #include <utility>
 
 namespace thalweg {
 
 namespace {
 
-constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
+double doubled_area(const CatchmentRing& ring) {
+  double sum = 0;
+  const Point2 o = ring.front().xy;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 p = ring[i].xy, q = ring[i + 1 == ring.size() ? 0 : i + 1].xy;
+    sum += (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
+  }
+  return sum;
+}
 
-struct Segment {
-  std::uint32_t group = 0;
-  std::uint32_t from = 0;
-  std::uint32_t to = 0;
-};
+bool holds(const CatchmentRing& ring, Point2 p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 a = ring[i].xy, b = ring[i + 1 == ring.size() ? 0 : i + 1].xy;
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if (p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+  }
+  return inside;
+}
 
-/// A part of an edge whose one side is of one group; `point` is its end.
-struct Part {
-  double end = 1;
-  std::uint32_t group = kOutside;
-  std::uint32_t point = 0;
-};
-
-class Outliner {
+/// Chains the segments of one group after another.
+class Chainer {
  public:
-  Outliner(const SurfaceFlow& flow, std::span<const std::uint32_t> group_of_sink)
-      : graph_(flow.graph()), tin_(graph_.tin), group_of_sink_(group_of_sink) {}
+  Chainer(const FlowGraph& graph, const CatchmentBorders& borders) : graph_(graph), borders_(borders) {}
 
-  std::vector<Catchment> run(Progress& progress) {
-    progress.start_phase("outline catchments");
-    side_of_piece_.resize(graph_.pieces.size());
-    for (std::size_t i = 0; i < tin_.halfedge_count(); ++i) {
-      if (i % (1U << 16U) == 0)
-        progress.advance(0.5 * static_cast<double>(i) / static_cast<double>(tin_.halfedge_count()));
-      const HalfedgeId h{i};
-      if (graph_.fall[i] == Fall::In) add_lines(h);
-      if (graph_.fall[i] == Fall::Out) add_line_to_top(h);
-      if (tin_.represents_edge(h)) add_edge(h);
-    }
-    std::sort(segments_.begin(), segments_.end(), [](const Segment& a, const Segment& b) {
-      return std::tie(a.group, a.from, a.to) < std::tie(b.group, b.from, b.to);
+  Catchment chain(std::span<BorderSegment> segments) {
+    std::sort(segments.begin(), segments.end(), [&](const BorderSegment& a, const BorderSegment& b) {
+      return a.from == b.from ? rank(a.to) < rank(b.to) : rank(a.from) < rank(b.from);
     });
-    progress.advance(0.7);
-    chain(progress);
-    progress.advance(1);
-    return std::move(catchments_);
+    segments_ = segments;
+    used_.assign(segments.size(), 0);
+    place_.assign(segments.size(), kNowhere);
+    for (std::size_t start = 0; start < segments.size(); ++start) {
+      if (used_[start] != 0) continue;
+      path_.clear();
+      std::size_t first = first_from(segments[start].from);
+      for (std::size_t s = start; s < segments.size(); s = next_of(segments[s], first)) {
+        used_[s] = 1;
+        // The first segment from a point stands for the point.
+        if (place_[first] != kNowhere) close(place_[first]);
+        place_[first] = static_cast<std::uint32_t>(path_.size());
+        path_.push_back({first, borders_.point(graph_, segments[s].from)});
+        first = first_from(segments[s].to);
+      }
+      close(0);
+    }
+    return collect(segments.front().group);
   }
 
  private:
-  [[nodiscard]] std::uint32_t group_of(FlowNode node) const {
-    return group_of_sink_[graph_.sink_of_node(node)];
-  }
-  [[nodiscard]] std::uint32_t point_of_piece(std::uint32_t piece) const {
-    return static_cast<std::uint32_t>(tin_.vertex_count()) + piece;
+  static constexpr std::uint32_t kNowhere = 0xffffffffU;
+
+  struct Passed {
+    std::size_t first = 0;
+    FlowPoint point;
+  };
+
+  [[nodiscard]] std::uint32_t rank(std::uint32_t point) const {
+    return CatchmentBorders::rank(graph_.mesh, point);
   }
 
-  void add_segment(std::uint32_t from, std::uint32_t to, std::uint32_t left, std::uint32_t right) {
-    if (left == right || from == to) return;
-    if (left != kOutside) segments_.push_back({left, from, to});
-    if (right != kOutside) segments_.push_back({right, to, from});
+  [[nodiscard]] std::size_t first_from(std::uint32_t point) const {
+    const auto at =
+        std::lower_bound(segments_.begin(), segments_.end(), rank(point),
+                         [&](const BorderSegment& s, std::uint32_t place) { return rank(s.from) < place; });
+    return static_cast<std::size_t>(at - segments_.begin());
   }
 
-  // Seen uphill the shares of an In side grow to the left.
-  void add_lines(HalfedgeId h) {
-    const std::uint32_t first = graph_.pieces_first[h.index()], count = graph_.pieces_count[h.index()];
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      side_of_piece_[i] = h;
-      if (i + 1 == first + count) break;
-      const std::uint32_t right = group_of(graph_.pieces[i].node), left = group_of(graph_.pieces[i + 1].node);
-      if (left == right) continue;
-      const std::uint32_t from = graph_.pieces[i].from;
-      add_segment(from == FlowPiece::kFromCorner ? tin_.apex(h).value() : point_of_piece(from),
-                  point_of_piece(i), left, right);
-    }
-  }
-
-  void add_line_to_top(HalfedgeId h) {
-    if (graph_.channel[h.index()] != 0) return;
-    const HalfedgeId twin = tin_.twin(h);
-    const std::uint32_t first = graph_.pieces_first[twin.index()], count = graph_.pieces_count[twin.index()];
-    if (count == 0) return;
-    const Strip strip = graph_.strip_of(Tin::triangle_of(h));
-    if (strip.corner_is_low) return;
-    for (std::uint32_t i = first; i + 1 < first + count; ++i) {
-      if (graph_.pieces[i].end != 1 - strip.at) continue;
-      add_segment(point_of_piece(i), tin_.apex(h).value(), group_of(graph_.pieces[i + 1].node),
-                  group_of(graph_.pieces[i].node));
-    }
-  }
-
-  // The groups along h of its triangle's ground.
-  void list_parts(HalfedgeId h, std::vector<Part>& parts) const {
-    parts.clear();
-    const auto all_of = [&](FlowNode node) { parts.push_back({1, group_of(node), tin_.target(h).value()}); };
-    FlowPiece single;
-    switch (graph_.fall[h.index()]) {
-      case Fall::Level:
-        return all_of(graph_.node_of(graph_.low_corner(Tin::triangle_of(h))));
-      case Fall::Out:
-        return all_of(graph_.node_of_channel(h));  // others are not looked at
-      case Fall::Along: {
-        const Strip strip = graph_.strip_of(Tin::triangle_of(h));
-        const std::span<const FlowPiece> pieces = graph_.taken_in(strip.split, single);
-        return all_of(h == Tin::next(strip.split) ? pieces.back().node : pieces.front().node);
-      }
-      case Fall::In:
-        break;
-    }
-    const std::uint32_t first = graph_.pieces_first[h.index()];
-    const std::span<const FlowPiece> pieces = graph_.taken_in(h, single);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const std::uint32_t group = group_of(pieces[i].node);
-      const bool last = i + 1 == pieces.size();
-      const Part part{last ? 1 : pieces[i].end, group,
-                      last ? tin_.target(h).value() : point_of_piece(first + static_cast<std::uint32_t>(i))};
-      if (!parts.empty() && parts.back().group == group) {
-        parts.back() = part;
-      } else {
-        parts.push_back(part);
-      }
-    }
-  }
-
-  void add_edge(HalfedgeId h) {
-    const HalfedgeId twin = tin_.twin(h);
-    if (twin.valid()) {
-      const Fall here = graph_.fall[h.index()], there = graph_.fall[twin.index()];
-      const bool out = here == Fall::Out || there == Fall::Out, in = here == Fall::In || there == Fall::In;
-      if (graph_.channel[h.index()] == 0 && out && in) return;  // all that comes goes on
-      if (here == Fall::Out && there == Fall::Out) return;
-    }
-    list_parts(h, left_);
-    right_.clear();
-    if (twin.valid()) {
-      list_parts(twin, parts_);
-      for (std::size_t i = parts_.size(); i-- > 0;) {  // the end of a part is the end of the one before it
-        right_.push_back({i == 0 ? 1 : 1 - parts_[i - 1].end, parts_[i].group,
-                          i == 0 ? tin_.target(h).value() : parts_[i - 1].point});
-      }
-    } else {
-      right_.push_back({1, kOutside, tin_.target(h).value()});
-    }
-    std::uint32_t at = tin_.origin(h).value();
-    for (std::size_t i = 0, j = 0; i < left_.size() && j < right_.size();) {
-      const bool end_left = i + 1 < left_.size() && (j + 1 == right_.size() || left_[i].end <= right_[j].end);
-      const std::uint32_t to = end_left ? left_[i].point : right_[j].point;
-      add_segment(at, to, left_[i].group, right_[j].group);
-      at = to;
-      end_left ? ++i : ++j;
-    }
-  }
-
-  [[nodiscard]] FlowPoint point(std::uint32_t number) const {
-    if (number < tin_.vertex_count()) {
-      const VertexId v{number};
-      return {.xy = tin_.point(v), .z = tin_.height(v), .edge = {}, .along = 0, .vertex = v};
-    }
-    const std::uint32_t piece = number - static_cast<std::uint32_t>(tin_.vertex_count());
-    const HalfedgeId h = side_of_piece_[piece];
-    const Point2 a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.target(h));
-    const double share = graph_.pieces[piece].end;
-    return {.xy = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)},
-            .z = 0,
-            .edge = h,
-            .along = share,
-            .vertex = {}};
-  }
-
-  // The segment that goes on from `segment`, or the end.
-  std::size_t next_of(const Segment& segment) const {
-    const auto less = [](const Segment& a, const Segment& b) {
-      return std::tie(a.group, a.from) < std::tie(b.group, b.from);
+  // The segment that goes on from `segment`, or the end. `first`: from its end.
+  [[nodiscard]] std::size_t next_of(const BorderSegment& segment, std::size_t first) const {
+    const auto starts_here = [&](std::size_t s) {
+      return s < segments_.size() && segments_[s].from == segment.to;
     };
-    const Segment key{segment.group, segment.to, 0};
-    const auto [begin, end] = std::equal_range(segments_.begin(), segments_.end(), key, less);
+    if (starts_here(first) && !starts_here(first + 1)) return used_[first] == 0 ? first : segments_.size();
     std::size_t best = segments_.size();
     double least = 0;
-    const Point2 here = point(segment.to).xy;
+    const Point2 here = borders_.point(graph_, segment.to).xy;
     const auto direction = [&](std::uint32_t to) {
-      const Point2 p = point(to).xy;
+      const Point2 p = borders_.point(graph_, to).xy;
       return std::atan2(p.y - here.y, p.x - here.x);
     };
-    for (auto s = begin; s != end; ++s) {
-      const auto index = static_cast<std::size_t>(s - segments_.begin());
-      if (used_[index]) continue;
-      if (end - begin == 1) return index;
-      double turn = direction(segment.from) - direction(s->to);  // clockwise
+    for (std::size_t s = first; starts_here(s); ++s) {
+      if (used_[s] != 0) continue;
+      double turn = direction(segment.from) - direction(segments_[s].to);  // clockwise
       if (turn <= 0) turn += 2 * std::numbers::pi;
       if (best == segments_.size() || turn < least) {
-        best = index;
+        best = s;
         least = turn;
       }
     }
     return best;
   }
 
-  void chain(const Progress& progress) {
-    used_.assign(segments_.size(), false);
-    std::vector<std::uint32_t> path;
-    std::unordered_map<std::uint32_t, std::size_t> place;
-    for (std::size_t start = 0; start < segments_.size(); ++start) {
-      if (start % (1U << 14U) == 0) progress.check();
-      if (start == 0 || segments_[start].group != segments_[start - 1].group) {
-        if (start > 0) add_catchment(segments_[start - 1].group);
-      }
-      if (used_[start]) continue;
-      path.clear();
-      place.clear();
-      for (std::size_t s = start; s < segments_.size(); s = next_of(segments_[s])) {
-        used_[s] = true;
-        const std::uint32_t from = segments_[s].from;
-        if (const auto met = place.find(from); met != place.end()) {
-          close(path, place, met->second);
-        }
-        place[from] = path.size();
-        path.push_back(from);
-      }
-      close(path, place, 0);
-    }
-    if (!segments_.empty()) add_catchment(segments_.back().group);
-  }
-
-  void close(std::vector<std::uint32_t>& path, std::unordered_map<std::uint32_t, std::size_t>& place,
-             std::size_t begin) {
+  void close(std::size_t begin) {
     CatchmentRing ring;
-    for (std::size_t i = begin; i < path.size(); ++i) {
-      place.erase(path[i]);
-      ring.push_back(point(path[i]));
+    ring.reserve(path_.size() - begin);
+    for (std::size_t i = begin; i < path_.size(); ++i) {
+      place_[path_[i].first] = kNowhere;
+      ring.push_back(path_[i].point);
     }
-    path.resize(begin);
+    path_.resize(begin);
     if (ring.size() > 2) rings_.push_back(std::move(ring));
   }
 
-  static double doubled_area(const CatchmentRing& ring) {
-    double sum = 0;
-    const Point2 o = ring.front().xy;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 p = ring[i].xy, q = ring[(i + 1) % ring.size()].xy;
-      sum += (p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x);
-    }
-    return sum;
-  }
-
-  static bool holds(const CatchmentRing& ring, Point2 p) {
-    bool inside = false;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 a = ring[i].xy, b = ring[(i + 1) % ring.size()].xy;
-      if ((a.y > p.y) == (b.y > p.y)) continue;
-      if (p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    }
-    return inside;
-  }
-
-  void add_catchment(std::uint32_t group) {
+  Catchment collect(std::uint32_t group) {
     Catchment catchment{group, {}};
     std::vector<CatchmentRing> holes;
     std::vector<double> area;
@@ -297,25 +150,62 @@ class Outliner {
       if (found) catchment.polygons[around].holes.push_back(std::move(hole));
     }
     rings_.clear();
-    if (!catchment.polygons.empty()) catchments_.push_back(std::move(catchment));
+    return catchment;
   }
 
   const FlowGraph& graph_;
-  const Tin& tin_;
-  std::span<const std::uint32_t> group_of_sink_;
-  std::vector<HalfedgeId> side_of_piece_;
-  std::vector<Segment> segments_;
-  std::vector<bool> used_;
-  std::vector<Part> left_, right_, parts_;
+  const CatchmentBorders& borders_;
+  std::span<BorderSegment> segments_;
+  std::vector<std::uint8_t> used_;
+  std::vector<std::uint32_t> place_;  // in the path, by the first segment from a point
+  std::vector<Passed> path_;
   std::vector<CatchmentRing> rings_;
-  std::vector<Catchment> catchments_;
 };
+
+/// The segments by group, and where each group's begin; then the end.
+std::vector<std::size_t> sort_by_group(std::vector<BorderSegment>& segments,
+                                       std::span<const std::uint32_t> group_of_sink) {
+  std::vector<std::uint32_t> groups(group_of_sink.begin(), group_of_sink.end());
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  const bool plain = !groups.empty() && groups.back() < group_of_sink.size();
+  const std::size_t count = plain ? groups.back() + 1 : groups.size();
+  const auto rank = [&](std::uint32_t group) {
+    return plain ? group
+                 : static_cast<std::size_t>(std::lower_bound(groups.begin(), groups.end(), group) -
+                                            groups.begin());
+  };
+  std::vector<std::size_t> first(count + 1, 0);
+  for (const BorderSegment& s : segments) ++first[rank(s.group) + 1];
+  for (std::size_t g = 0; g < count; ++g) first[g + 1] += first[g];
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  std::vector<BorderSegment> sorted(segments.size());
+  for (const BorderSegment& s : segments) sorted[next[rank(s.group)]++] = s;
+  segments = std::move(sorted);
+  return first;
+}
 
 }  // namespace
 
 std::vector<Catchment> outline_catchments(const SurfaceFlow& flow,
                                           std::span<const std::uint32_t> group_of_sink, Progress& progress) {
-  return Outliner(flow, group_of_sink).run(progress);
+  constexpr std::size_t kGroups = 64;
+  progress.start_phase("outline catchments");
+  const FlowGraph& graph = flow.graph();
+  CatchmentBorders borders = find_borders(graph, group_of_sink, progress);
+  progress.advance(0.5);
+  const std::vector<std::size_t> first = sort_by_group(borders.segments, group_of_sink);
+  std::vector<Catchment> catchments(first.size() - 1);
+  for_each_block(catchments.size(), kGroups, progress, {0.6, 1}, [&](std::size_t begin, std::size_t end) {
+    Chainer chainer(graph, borders);
+    for (std::size_t g = begin; g < end; ++g) {
+      if (first[g] == first[g + 1]) continue;
+      catchments[g] = chainer.chain(std::span(borders.segments).subspan(first[g], first[g + 1] - first[g]));
+    }
+  });
+  std::erase_if(catchments, [](const Catchment& catchment) { return catchment.polygons.empty(); });
+  progress.advance(1);
+  return catchments;
 }
 
 }  // namespace thalweg

@@ -12,33 +12,33 @@ namespace thalweg {
 
 namespace {
 
+/// The halfedge that stands for the edge in the TIN.
+HalfedgeId given_edge(const FlowGraph& graph, HalfedgeId h) {
+  const HalfedgeId twin = graph.mesh.twin(h);
+  return twin.valid() ? std::min(graph.mesh.given(h), graph.mesh.given(twin)) : graph.mesh.given(h);
+}
+
 class Accumulator {
  public:
   Accumulator(const FlowGraph& graph, const Spilling& spilling, double min_area)
       : graph_(graph),
         spilling_(spilling),
-        tin_(graph.tin),
         min_area_(min_area),
         area_(graph.ground),
-        waiting_(graph.ground.size(), 0),
-        highest_(graph.ground.size(), 0),
-        how_often_(graph.ground.size(), 0) {}
+        waiting_(graph.node_count(), 0),
+        highest_(graph.node_count(), 0),
+        how_often_(graph.node_count(), 0) {}
 
   void run(Progress& progress) {
-    const std::size_t count = area_.size();
-    const auto exists = [&](std::size_t node) {
-      return node >= tin_.halfedge_count() ||
-             (graph_.channel[node] != 0 && tin_.represents_edge(HalfedgeId{node}));
-    };
-    for (std::size_t node = 0; node < count; ++node) {
-      if (!exists(node)) continue;
-      if (const FlowNode next = below(static_cast<FlowNode>(node)); next != kNoNode) ++waiting_[next];
+    const auto count = static_cast<FlowNode>(graph_.node_count());
+    for (FlowNode node = 0; node < count; ++node) {
+      if (const FlowNode next = below(node); next != kNoNode) ++waiting_[next];
     }
     progress.advance(0.3);
-    for (std::size_t node = 0; node < count; ++node) {
-      if (waiting_[node] != 0 || !exists(node)) continue;
+    for (FlowNode node = 0; node < count; ++node) {
+      if (waiting_[node] != 0) continue;
       if (node % (1U << 16U) == 0) progress.check();
-      for (auto at = static_cast<FlowNode>(node); at != kNoNode;) {
+      for (FlowNode at = node; at != kNoNode;) {
         const FlowNode next = below(at);
         settle(at);
         waiting_[at] = kSettled;
@@ -58,22 +58,24 @@ class Accumulator {
 
   [[nodiscard]] FlowNode below(FlowNode node) const {
     if (graph_.is_vertex(node)) return below(graph_.vertex_of(node));
-    const HalfedgeId h{node};
-    return tin_.on_rim(h) ? kNoNode : graph_.node_of(graph_.low_end(h));
+    const Channel& channel = graph_.channel_of(node);
+    return graph_.mesh.on_rim(channel.edge) ? kNoNode : graph_.node_of(channel.low);
   }
 
   [[nodiscard]] FlowNode below(VertexId v) const {
     const std::uint32_t sink = graph_.sink[v.index()];
-    if (graph_.step[v.index()].kind != Step::Stay || sink == SinkId::kInvalid) return graph_.next[v.index()];
-    const VertexId overflow = spilling_.overflow[sink];
-    const bool goes_on = overflow.valid() && graph_.flats.on_rim[overflow.index()] == 0;
-    return goes_on ? graph_.node_of(overflow) : kNoNode;
+    if (graph_.step[v.index()].kind != VertexStep::Kind::Stay || sink == SinkId::kInvalid) {
+      return graph_.next[v.index()];
+    }
+    if (!spilling_.overflow[sink].valid()) return kNoNode;
+    const VertexId overflow = graph_.mesh.own(spilling_.overflow[sink]);
+    return graph_.flats.on_rim[overflow.index()] == 0 ? graph_.node_of(overflow) : kNoNode;
   }
 
   void settle(FlowNode node) {
     if (how_often_[node] > 1) ++highest_[node];
-    const bool channel = !graph_.is_vertex(node) && !tin_.on_rim(HalfedgeId{node});
-    if (channel && highest_[node] == 0 && area_[node] >= min_area_ && area_[node] > 0) highest_[node] = 1;
+    if (highest_[node] != 0 || !(area_[node] >= min_area_ && area_[node] > 0) || graph_.is_vertex(node)) return;
+    if (!graph_.mesh.on_rim(graph_.channel_of(node).edge)) highest_[node] = 1;
   }
 
   void pass_on(FlowNode from, FlowNode to) {
@@ -86,12 +88,34 @@ class Accumulator {
 
   const FlowGraph& graph_;
   const Spilling& spilling_;
-  const Tin& tin_;
   double min_area_;
-  std::vector<double> area_;
-  std::vector<std::uint32_t> waiting_;
-  std::vector<std::uint8_t> highest_, how_often_;
+  LargeVector<double> area_;
+  LargeVector<std::uint32_t> waiting_;
+  LargeVector<std::uint8_t> highest_, how_often_;
 };
+
+/// The nodes of which reaches are made: channels, then vertices, each by their numbers in the TIN.
+std::vector<FlowNode> list_reaches(const FlowGraph& graph, const Accumulator& sums) {
+  std::vector<FlowNode> nodes;
+  const auto add = [&](FlowNode node) {
+    if (sums.strahler(node) > 0) nodes.push_back(node);
+  };
+  const auto count = static_cast<FlowNode>(graph.node_count());
+  for (FlowNode node = 0; node < count; ++node) {
+    if (!graph.is_vertex(node)) add(node);
+  }
+  const auto channels = static_cast<std::ptrdiff_t>(nodes.size());
+  for (std::size_t v = 0; v < graph.mesh.vertex_count(); ++v) add(graph.node_of(VertexId{v}));
+  if (graph.mesh.same() && graph.broken_cycles == 0) return nodes;
+  const auto given = [&](FlowNode node) {
+    return graph.is_vertex(node) ? graph.mesh.given(graph.vertex_of(node)).value()
+                                 : given_edge(graph, graph.channel_of(node).edge).value();
+  };
+  const auto before = [&](FlowNode a, FlowNode b) { return given(a) < given(b); };
+  std::sort(nodes.begin(), nodes.begin() + channels, before);
+  std::sort(nodes.begin() + channels, nodes.end(), before);
+  return nodes;
+}
 
 }  // namespace
 
@@ -99,38 +123,32 @@ std::vector<Reach> find_network(const SurfaceFlow& flow, const Spilling& spillin
                                 Progress& progress) {
   progress.start_phase("find network");
   const FlowGraph& graph = flow.graph();
-  const Tin& tin = graph.tin;
+  const FlowMesh& mesh = graph.mesh;
   Accumulator sums(graph, spilling, min_area);
   sums.run(progress);
   progress.advance(0.7);
   std::vector<Reach> network;
   const auto vertex_point = [&](VertexId v) {
-    return FlowPoint{.xy = tin.point(v), .z = tin.height(v), .edge = {}, .along = 0, .vertex = v};
+    return FlowPoint{.xy = mesh.point(v), .z = mesh.height(v), .edge = {}, .along = 0, .vertex = mesh.given(v)};
   };
-  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
-    const HalfedgeId h{i};
-    if (graph.channel[i] == 0 || !tin.represents_edge(h) || tin.on_rim(h)) continue;
-    const auto node = static_cast<FlowNode>(i);
-    if (sums.strahler(node) == 0) continue;
-    const VertexId low = graph.low_end(h), high = low == tin.origin(h) ? tin.target(h) : tin.origin(h);
-    network.push_back({.points = {vertex_point(high), vertex_point(low)},
-                       .channel = h,
-                       .area = sums.area(node),
-                       .strahler = sums.strahler(node),
-                       .sink = spilling.end[graph.sink_of_node(node)]});
-  }
-  for (std::size_t i = 0; i < tin.vertex_count(); ++i) {
-    const VertexId v{i};
-    const FlowNode node = graph.node_of(v);
-    const VertexStep& step = graph.step[i];
-    if (sums.strahler(node) == 0 || (step.kind != Step::Cross && step.kind != Step::Edge)) continue;
-    const FlowNode next = graph.next[i];
-    if (step.kind == Step::Edge && !graph.is_vertex(next)) continue;  // the channel starts here
-    network.push_back({.points = flow.leg_from(v).points,
-                       .channel = {},
-                       .area = sums.area(node),
-                       .strahler = sums.strahler(node),
-                       .sink = spilling.end[graph.sink[i]]});
+  for (const FlowNode node : list_reaches(graph, sums)) {
+    Reach reach{.area = sums.area(node), .strahler = sums.strahler(node)};
+    if (graph.is_vertex(node)) {
+      const VertexId v = graph.vertex_of(node);
+      const VertexStep::Kind kind = graph.step[v.index()].kind;
+      if (kind != VertexStep::Kind::Cross && kind != VertexStep::Kind::Edge) continue;
+      const FlowNode next = graph.next[v.index()];
+      if (kind == VertexStep::Kind::Edge && !graph.is_vertex(next)) continue;  // the channel starts here
+      reach.points = flow.leg_from(mesh.given(v)).points;
+    } else {
+      const auto& [edge, low] = graph.channel_of(node);
+      if (mesh.on_rim(edge)) continue;
+      const VertexId high = low == mesh.origin(edge) ? mesh.target(edge) : mesh.origin(edge);
+      reach.points = {vertex_point(high), vertex_point(low)};
+      reach.channel = given_edge(graph, edge);
+    }
+    reach.sink = spilling.end[graph.sink_of_node(node)];
+    network.push_back(std::move(reach));
   }
   progress.advance(1);
   return network;

@@ -3,18 +3,22 @@
 // 1. The sinks part the vertices into basins; all that leaves is one basin, the outside, and so is every rim
 //    vertex. Along the path of its water a vertex is joined to its sink below its own height, so two basins
 //    are joined at height h exactly if an edge between them reaches no higher than h.
-// 2. Vertices with a neighbour of another basin, from the lowest up (ties by (x, y)), unite the basins of
-// their
-//    lower neighbours with their own (Kruskal's minimum spanning tree). When two sets meet, the one with the
-//    higher bottom has found its spill vertex; the outside is the lowest of all.
+// 2. Of the edges between the same two basins only the lowest counts: by its higher end, then its lower one
+//    (ties by (x, y)). These, from the lowest up, unite their basins (Kruskal's minimum spanning tree). When
+//    two sets meet, the one with the higher bottom has found its spill vertex; the outside is the lowest of
+//    all.
 // 3. A pit that spills into a set ends at the level of that set's pit, known later: so from the last to the
 //    first each takes the fill height of the pit of the set it met.
 // 4. Under water is what is lower than the spill height and connected to the pit below it; a triangle counts
 // as
 //    far as it is submerged, cut along its shore. Two submerged corners of a triangle are connected by its
-//    edge, so it is of one pit; it is counted at its submerged corner of least id.
+//    edge, so it is of one pit; it is counted at its submerged corner of least id. Pits that have met on the
+//    way to the outside are done by one thread: waters of others have no vertex in common.
 // Based on: Barnes, Callaghan, Wickert, Computing water flow through complex landscapes - Part 2: Finding
 // hierarchies in depressions, 2020, section 3, for the idea of step 2.
+#include "base/buckets.hpp"
+#include "base/ordered_blocks.hpp"
+#include "base/parallel.hpp"
 #include "base/union_find.hpp"
 #include "terrain/flow_graph.hpp"
 
@@ -22,7 +26,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 namespace thalweg {
@@ -50,127 +54,196 @@ Water water_in(std::array<double, 3> depth, double area) {
   return {area * (1 - dry), area * ((a + b + c) / 3 - dry * c / 3)};
 }
 
+/// An edge between two basins.
+struct Pass {
+  std::uint32_t basin = kOutside;  ///< the lower number
+  std::uint32_t other = kOutside;
+  VertexId high, low;  ///< its ends
+  double height = 0;   ///< of the higher one
+};
+
 class Tabulator {
  public:
   Tabulator(const SurfaceFlow& flow, const MetricScale& scale)
-      : graph_(flow.graph()), tin_(graph_.tin), scale_(scale) {}
+      : graph_(flow.graph()), mesh_(graph_.mesh), scale_(scale) {}
 
   PitTable run(Progress& progress) {
     progress.start_phase("measure pits");
     list_pits();
-    find_spills(progress);
+    find_basins(progress);
+    find_spills(lowest_passes(progress));
     progress.advance(0.5);
-    reached_.assign(tin_.vertex_count(), kNoPit);
-    for (std::size_t i = 0; i < table_.pits.size(); ++i) {
-      if (i % 256 == 0) {
-        progress.advance(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(table_.pits.size()));
-      }
-      measure(i);
-    }
+    measure_all(progress);
+    for (const Pit& pit : table_.pits) count(pit);
     progress.advance(1);
     return std::move(table_);
   }
 
  private:
+  static constexpr std::size_t kBlock = 8192;
+
   void list_pits() {
     const double square = scale_.horizontal_metres_per_unit * scale_.horizontal_metres_per_unit;
     basin_of_sink_.assign(graph_.sinks.size(), kOutside);
     for (std::size_t s = 0; s < graph_.sinks.size(); ++s) {
       const Sink& sink = graph_.sinks[s];
       if (sink.kind != Sink::Kind::Pit && sink.kind != Sink::Kind::Lake) continue;
+      bottom_.push_back(mesh_.own(sink.vertex));
       table_.pits.push_back({.sink = SinkId{s},
                              .vertex = sink.vertex,
                              .vertices = sink.vertices,
                              .lake = sink.kind == Sink::Kind::Lake,
-                             .height = tin_.height(sink.vertex),
+                             .height = mesh_.height(bottom_.back()),
                              .catchment_area_m2 = sink.area * square});
       basin_of_sink_[s] = static_cast<std::uint32_t>(table_.pits.size());
     }
   }
 
-  [[nodiscard]] std::uint32_t basin_of(VertexId v) const {
-    const std::uint32_t sink = graph_.sink[v.index()];
-    return sink == SinkId::kInvalid || graph_.flats.on_rim[v.index()] != 0 ? kOutside : basin_of_sink_[sink];
+  void find_basins(const Progress& progress) {
+    basin_.resize(mesh_.vertex_count());
+    for_each_block(mesh_.vertex_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const std::uint32_t sink = graph_.sink[v];
+        const bool outside = sink == SinkId::kInvalid || graph_.flats.on_rim[v] != 0;
+        basin_[v] = outside ? kOutside : basin_of_sink_[sink];
+      }
+    });
   }
 
-  [[nodiscard]] auto key(VertexId v) const { return std::tuple(tin_.height(v), tin_.point(v)); }
+  [[nodiscard]] bool is_before(VertexId v, VertexId w) const {
+    const double p = mesh_.height(v), q = mesh_.height(w);
+    return p != q ? p < q : mesh_.point(v) < mesh_.point(w);
+  }
+  [[nodiscard]] bool is_before(const Pass& a, const Pass& b) const {
+    if (a.height != b.height) return a.height < b.height;
+    return a.high != b.high ? is_before(a.high, b.high) : is_before(a.low, b.low);
+  }
 
   // Basin x has the lower bottom.
   [[nodiscard]] bool goes_on(std::uint32_t x, std::uint32_t y) const {
     if (x == kOutside || y == kOutside) return x == kOutside;
-    return key(table_.pits[x - 1].vertex) < key(table_.pits[y - 1].vertex);
+    return is_before(bottom_[x - 1], bottom_[y - 1]);
   }
 
-  void find_spills(const Progress& progress) {
-    std::vector<VertexId> passes;
-    for (std::size_t i = 0; i < tin_.vertex_count(); ++i) {
-      const VertexId v{i};
-      const std::uint32_t own = basin_of(v);
-      for (const HalfedgeId h : tin_.outgoing(v)) {
-        if (basin_of(tin_.target(h)) == own && basin_of(tin_.apex(h)) == own) continue;
-        passes.push_back(v);
-        break;
-      }
-    }
-    progress.check();
-    std::sort(passes.begin(), passes.end(), [&](VertexId v, VertexId w) { return key(v) < key(w); });
-    progress.check();
-    UnionFind sets(table_.pits.size() + 1);
-    std::vector<std::uint32_t> bottom(table_.pits.size() + 1);  // of each set the basin that goes on
-    for (std::uint32_t b = 0; b < bottom.size(); ++b) bottom[b] = b;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> met;  // pit that spilled, basin that goes on
-    std::vector<VertexId> lower;
-    for (const VertexId v : passes) {
-      lower.clear();
-      for (const HalfedgeId h : tin_.outgoing(v)) {
-        for (const VertexId w : {tin_.target(h), tin_.apex(h)}) {
-          if (key(w) < key(v)) lower.push_back(w);
+  // Edges on the rim are outside.
+  [[nodiscard]] std::vector<Pass> list_passes(const Progress& progress) const {
+    std::vector<Pass> passes;
+    const auto make = [&](std::size_t begin, std::size_t end, std::vector<Pass>& found) {
+      found.clear();
+      for (std::size_t t = begin; t < end; ++t) {
+        const Triangle& c = mesh_.triangle(TriangleId{t});
+        const std::array<std::uint32_t, 3> basin = {basin_[c[0].index()], basin_[c[1].index()],
+                                                    basin_[c[2].index()]};
+        if (basin[0] == basin[1] && basin[1] == basin[2]) continue;
+        for (std::size_t i = 0, j = 1; i < 3; ++i, j = j == 2 ? 0 : j + 1) {
+          if (basin[i] == basin[j] || c[j] < c[i]) continue;  // of the two triangles beside an edge, one
+          const auto [least, most] = std::minmax(basin[i], basin[j]);
+          const auto [low, high] = is_before(c[i], c[j]) ? std::pair(c[i], c[j]) : std::pair(c[j], c[i]);
+          found.push_back({least, most, high, low, mesh_.height(high)});
         }
       }
-      std::sort(lower.begin(), lower.end(), [&](VertexId a, VertexId b) { return key(a) < key(b); });
-      for (const VertexId w : lower) {
-        const std::uint32_t here = basin_of(v), there = basin_of(w);
-        const std::uint32_t x = bottom[sets.find(here)], y = bottom[sets.find(there)];
-        if (!sets.unite(here, there)) continue;
-        const bool first = goes_on(x, y);
-        bottom[sets.find(here)] = first ? x : y;
-        Pit& pit = table_.pits[(first ? y : x) - 1];
-        const std::uint32_t across = first ? here : there;  // on the other side than the pit that spills
-        pit.spill_height = tin_.height(v);
-        pit.spill_vertex = v;
-        pit.overflow = first ? v : w;
-        if (across != kOutside) pit.spills_into = across - 1;
-        met.emplace_back(first ? y : x, first ? x : y);
+    };
+    for_each_block_in_order<std::vector<Pass>>(
+        mesh_.triangle_count(), kBlock, progress, make,
+        [&](std::size_t /*begin*/, std::size_t /*end*/, const std::vector<Pass>& found) {
+          passes.insert(passes.end(), found.begin(), found.end());
+        });
+    return passes;
+  }
+
+  /// Of each two basins that meet; from the lowest up.
+  [[nodiscard]] std::vector<Pass> lowest_passes(const Progress& progress) const {
+    const std::vector<Pass> passes = list_passes(progress);
+    std::vector<std::uint32_t> basins(passes.size());
+    std::transform(passes.begin(), passes.end(), basins.begin(), [](const Pass& p) { return p.basin; });
+    Buckets by_basin = sort_into_buckets(basins, table_.pits.size() + 1);
+    progress.check();
+    std::vector<Pass> lowest;
+    std::vector<std::size_t> place(table_.pits.size() + 1, 0);  // in `lowest`, if that is of the basin at hand
+    for (std::uint32_t basin = 0; basin < by_basin.size(); ++basin) {
+      const std::size_t first = lowest.size();
+      for (const std::uint32_t i : by_basin.items(basin)) {
+        const Pass& pass = passes[i];
+        std::size_t& known = place[pass.other];
+        if (known >= first && known < lowest.size() && lowest[known].other == pass.other) {
+          if (is_before(pass, lowest[known])) lowest[known] = pass;
+        } else {
+          known = lowest.size();
+          lowest.push_back(pass);
+        }
       }
     }
+    progress.check();
+    std::sort(lowest.begin(), lowest.end(), [&](const Pass& a, const Pass& b) { return is_before(a, b); });
+    return lowest;
+  }
+
+  void find_spills(const std::vector<Pass>& passes) {
+    UnionFind sets(table_.pits.size() + 1);
+    std::vector<std::uint32_t> deepest(table_.pits.size() + 1);  // of each set the basin that goes on
+    std::iota(deepest.begin(), deepest.end(), 0U);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> met;  // pit that spilled, basin that goes on
+    for (const Pass& pass : passes) {
+      const std::uint32_t here = basin_[pass.high.index()], there = basin_[pass.low.index()];
+      const std::uint32_t x = deepest[sets.find(here)], y = deepest[sets.find(there)];
+      if (!sets.unite(here, there)) continue;
+      const bool first = goes_on(x, y);
+      deepest[sets.find(here)] = first ? x : y;
+      Pit& pit = table_.pits[(first ? y : x) - 1];
+      const std::uint32_t across = first ? here : there;  // on the other side than the pit that spills
+      pit.spill_height = pass.height;
+      pit.spill_vertex = mesh_.given(pass.high);
+      pit.overflow = mesh_.given(first ? pass.high : pass.low);
+      if (across != kOutside) pit.spills_into = across - 1;
+      met.emplace_back(first ? y : x, first ? x : y);
+    }
     std::reverse(met.begin(), met.end());
+    last_met_.resize(table_.pits.size());
+    std::iota(last_met_.begin(), last_met_.end(), 0U);
     for (const auto& [spilled, other] : met) {
       Pit& pit = table_.pits[spilled - 1];
       pit.fill_height = other == kOutside ? pit.spill_height : table_.pits[other - 1].fill_height;
+      if (other != kOutside) last_met_[spilled - 1] = last_met_[other - 1];
     }
   }
 
-  void measure(std::size_t index) {
-    Pit& pit = table_.pits[index];
-    const auto mark = static_cast<std::uint32_t>(index);
-    const auto submerged = [&](VertexId v) { return tin_.height(v) < pit.spill_height; };
-    lake_.assign(1, pit.vertex);
-    reached_[pit.vertex.index()] = mark;
+  void measure_all(Progress& progress) {
+    constexpr std::size_t kPits = 64;
+    reached_.assign(mesh_.vertex_count(), kNoPit);
+    Buckets together = sort_into_buckets(last_met_, table_.pits.size());
+    for_each_block(together.size(), kPits, progress, {0.5, 1}, [&](std::size_t begin, std::size_t end) {
+      std::vector<HalfedgeId> lake, fan;
+      for (std::size_t last = begin; last < end; ++last) {
+        for (const std::uint32_t pit : together.items(last)) measure(pit, lake, fan);
+      }
+    });
+  }
+
+  /// `lake`, `fan`: room for what is under water, each vertex by a halfedge from it, and around a vertex.
+  void measure(std::uint32_t mark, std::vector<HalfedgeId>& lake, std::vector<HalfedgeId>& fan) {
+    Pit& pit = table_.pits[mark];
+    const auto submerged = [&](VertexId v) { return mesh_.height(v) < pit.spill_height; };
+    lake.assign(1, mesh_.some_out(bottom_[mark]));
+    reached_[bottom_[mark].index()] = mark;
+    const auto reach = [&](VertexId v, HalfedgeId out) {
+      if (reached_[v.index()] == mark) return;
+      reached_[v.index()] = mark;
+      lake.push_back(out);
+    };
     Water water;
-    for (std::size_t next = 0; next < lake_.size(); ++next) {
-      const VertexId v = lake_[next];
-      for (const HalfedgeId h : tin_.outgoing(v)) {
-        const VertexId b = tin_.target(h), c = tin_.apex(h);
-        for (const VertexId w : {b, c}) {
-          if (!submerged(w) || reached_[w.index()] == mark) continue;
-          reached_[w.index()] = mark;
-          lake_.push_back(w);
-        }
-        if ((submerged(b) && b < v) || (submerged(c) && c < v)) continue;
-        const Point2 o = tin_.point(v), p = tin_.point(b), q = tin_.point(c);
+    for (std::size_t next = 0; next < lake.size(); ++next) {
+      const VertexId v = mesh_.origin(lake[next]);
+      list_fan(lake[next], fan);
+      for (const HalfedgeId h : fan) {
+        const VertexId b = mesh_.target(h), c = mesh_.apex(h);
+        const bool wet_b = submerged(b), wet_c = submerged(c);
+        if (wet_b) reach(b, Tin::next(h));
+        if (wet_c) reach(c, Tin::previous(h));
+        if ((wet_b && mesh_.given(b) < mesh_.given(v)) || (wet_c && mesh_.given(c) < mesh_.given(v))) continue;
+        const Point2 o = mesh_.point(v), p = mesh_.point(b), q = mesh_.point(c);
         const double area = ((p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x)) / 2;
-        const Water part = water_in({pit.spill_height - tin_.height(v), pit.spill_height - tin_.height(b),
-                                     pit.spill_height - tin_.height(c)},
+        const Water part = water_in({pit.spill_height - mesh_.height(v), pit.spill_height - mesh_.height(b),
+                                     pit.spill_height - mesh_.height(c)},
                                     area);
         water.area += part.area;
         water.volume += part.volume;
@@ -180,8 +253,25 @@ class Tabulator {
     pit.depth_m = (pit.spill_height - pit.height) * scale_.vertical_metres_per_unit;
     pit.area_m2 = water.area * square;
     pit.volume_m3 = water.volume * square * scale_.vertical_metres_per_unit;
-    if (pit.spill_height == pit.fill_height)
+  }
+
+  /// What is under water is not on the rim: all around it are triangles. Sorted, so that sums do not depend on
+  /// where one comes from.
+  void list_fan(HalfedgeId start, std::vector<HalfedgeId>& fan) const {
+    fan.clear();
+    HalfedgeId h = start;
+    do {
+      fan.push_back(h);
+      h = mesh_.twin(Tin::previous(h));
+    } while (h != start);
+    std::sort(fan.begin(), fan.end(),
+              [&](HalfedgeId g, HalfedgeId k) { return mesh_.given(g) < mesh_.given(k); });
+  }
+
+  void count(const Pit& pit) {
+    if (pit.spill_height == pit.fill_height) {
       table_.fill_volume_m3 += pit.volume_m3;  // else part of a larger lake
+    }
     if (pit.lake) return;
     const auto* const depth_class =
         std::lower_bound(kDepthClassesMetres.begin(), kDepthClassesMetres.end(), pit.depth_m);
@@ -189,12 +279,13 @@ class Tabulator {
   }
 
   const FlowGraph& graph_;
-  const Tin& tin_;
+  const FlowMesh& mesh_;
   const MetricScale& scale_;
   PitTable table_;
-  std::vector<std::uint32_t> basin_of_sink_;
-  std::vector<std::uint32_t> reached_;
-  std::vector<VertexId> lake_;
+  std::vector<VertexId> bottom_;  // by pit: its vertex
+  std::vector<std::uint32_t> basin_of_sink_, last_met_;
+  LargeVector<std::uint32_t> basin_;  // by vertex: number of its pit, counted from 1, or outside
+  LargeVector<std::uint32_t> reached_;
 };
 
 }  // namespace
@@ -210,9 +301,10 @@ Spilling let_spill(const SurfaceFlow& flow, const PitTable& table, double max_de
   std::vector<SinkId> next(graph.sinks.size());
   for (const Pit& pit : table.pits) {
     if (pit.lake || pit.depth_m > max_depth_m) continue;
-    const bool leaves = graph.flats.on_rim[pit.overflow.index()] != 0;
+    const VertexId overflow = graph.mesh.own(pit.overflow);
+    const bool leaves = graph.flats.on_rim[overflow.index()] != 0;
     spilling.overflow[pit.sink.index()] = pit.overflow;
-    next[pit.sink.index()] = SinkId{(leaves ? graph.rim_sink : graph.sink)[pit.overflow.index()]};
+    next[pit.sink.index()] = SinkId{(leaves ? graph.rim_sink : graph.sink)[overflow.index()]};
   }
   spilling.end.resize(graph.sinks.size());
   std::vector<SinkId> chain;

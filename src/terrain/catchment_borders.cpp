@@ -1,0 +1,216 @@
+// Borders of catchments.
+//
+// 1. In each triangle the lines that end pieces of its In sides, each from the piece below or from the corner
+//    at which water parts, up to the side; where such a line meets the upper corner, up to it.
+// 2. On each edge whose two sides belong to different ground (a ridge, the rim, beside level triangles): the
+//    parts of it where they do.
+#include "terrain/catchment_borders.hpp"
+
+#include "base/ordered_blocks.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t kBlock = 12288;
+
+/// A part of an edge whose one side is of one group; `point` is its end.
+struct Part {
+  double end = 1;
+  std::uint32_t group = kOutside;
+  std::uint32_t point = 0;
+};
+
+/// What is found in a block of halfedges.
+struct Slot {
+  std::vector<BorderSegment> segments;
+  std::vector<Part> left, right, parts;
+};
+
+/// What all blocks share.
+struct Grounds {
+  const FlowGraph& graph;
+  std::span<const std::uint32_t> group;  ///< by node
+  HalfedgeId* side_of_piece;
+};
+
+class BorderFinder {
+ public:
+  BorderFinder(const Grounds& grounds, Slot& slot)
+      : graph_(grounds.graph),
+        mesh_(graph_.mesh),
+        group_(grounds.group),
+        side_of_piece_(grounds.side_of_piece),
+        slot_(slot) {
+    slot_.segments.clear();
+  }
+
+  void look_at(HalfedgeId h) {
+    const Fall fall = graph_.fall[h.index()];
+    if (fall == Fall::In && graph_.target[h.index()].many != 0) add_lines(h);
+    if (fall == Fall::Out && graph_.channel[h.index()] == 0) add_line_to_top(h);
+    if (mesh_.represents_edge(h)) add_edge(h);
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t point_of_piece(std::uint32_t piece) const {
+    return static_cast<std::uint32_t>(mesh_.vertex_count()) + piece;
+  }
+
+  void add_segment(std::uint32_t from, std::uint32_t to, std::uint32_t left, std::uint32_t right) {
+    if (left == right || from == to) return;
+    if (left != kOutside) slot_.segments.push_back({left, from, to});
+    if (right != kOutside) slot_.segments.push_back({right, to, from});
+  }
+
+  // Seen uphill the shares of an In side grow to the left.
+  void add_lines(HalfedgeId h) {
+    std::uint32_t i = graph_.target[h.index()].index;
+    for (std::uint32_t right = group_[graph_.pieces[i].node]; graph_.pieces[i].last == 0; ++i) {
+      const std::uint32_t left = group_[graph_.pieces[i + 1].node];
+      if (left != right) {
+        side_of_piece_[i] = h;
+        const std::uint32_t from = graph_.pieces[i].from;
+        add_segment(from == FlowPiece::kFromCorner ? mesh_.apex(h).value() : point_of_piece(from),
+                    point_of_piece(i), left, right);
+      }
+      right = left;
+    }
+  }
+
+  void add_line_to_top(HalfedgeId h) {
+    const FlowTarget target = graph_.beyond(h);
+    if (target.many == 0) return;
+    const std::size_t after = Tin::next(h).index(), before = Tin::previous(h).index();
+    if (graph_.fall[after] != Fall::In || graph_.fall[before] != Fall::In) return;
+    const double top = 1 - graph_.split_at[h.index() / 3];
+    for (std::uint32_t i = target.index; graph_.pieces[i].last == 0; ++i) {
+      if (graph_.pieces[i].end != top) continue;
+      add_segment(point_of_piece(i), mesh_.apex(h).value(), group_[graph_.pieces[i + 1].node],
+                  group_[graph_.pieces[i].node]);
+    }
+  }
+
+  // The groups along h of its triangle's ground.
+  void list_parts(HalfedgeId h, std::vector<Part>& parts) const {
+    parts.clear();
+    const auto all_of = [&](FlowNode node) { parts.push_back({1, group_[node], mesh_.target(h).value()}); };
+    const TriangleId t = Tin::triangle_of(h);
+    switch (graph_.fall[h.index()]) {
+      case Fall::Level:
+        return all_of(graph_.node_of(graph_.low_corner(t)));
+      case Fall::Out:
+        return all_of(graph_.node_of_channel(h));  // others are not looked at
+      case Fall::Along: {
+        const HalfedgeId split = graph_.strip_of(t).split;
+        FlowPiece single;
+        const FlowPiece* piece = graph_.pieces_of(graph_.target[split.index()], single);
+        while (h == Tin::next(split) && piece->last == 0) ++piece;
+        return all_of(piece->node);
+      }
+      case Fall::In:
+        break;
+    }
+    const FlowTarget target = graph_.target[h.index()];
+    if (target.many == 0) return all_of(target.index);
+    for (std::uint32_t i = target.index;; ++i) {
+      const FlowPiece& piece = graph_.pieces[i];
+      const bool last = piece.last != 0;
+      const std::uint32_t group = group_[piece.node];
+      const Part part{last ? 1 : piece.end, group, last ? mesh_.target(h).value() : point_of_piece(i)};
+      if (!parts.empty() && parts.back().group == group) {
+        parts.back() = part;
+      } else {
+        parts.push_back(part);
+      }
+      if (last) return;
+    }
+  }
+
+  void add_edge(HalfedgeId h) {
+    const HalfedgeId twin = mesh_.twin(h);
+    if (twin.valid()) {
+      const Fall here = graph_.fall[h.index()], there = graph_.fall[twin.index()];
+      const bool out = here == Fall::Out || there == Fall::Out, in = here == Fall::In || there == Fall::In;
+      if (graph_.channel[h.index()] == 0 && out && in) return;  // all that comes goes on
+      if (here == Fall::Out && there == Fall::Out) return;
+    }
+    std::vector<Part>&left = slot_.left, &right = slot_.right, &parts = slot_.parts;
+    list_parts(h, left);
+    right.clear();
+    const std::uint32_t end = mesh_.target(h).value();
+    if (twin.valid()) {
+      list_parts(twin, parts);
+      if (left.size() == 1 && parts.size() == 1 && left[0].group == parts[0].group) return;
+      for (std::size_t i = parts.size(); i-- > 0;) {  // the end of a part is the end of the one before it
+        right.push_back(
+            {i == 0 ? 1 : 1 - parts[i - 1].end, parts[i].group, i == 0 ? end : parts[i - 1].point});
+      }
+    } else {
+      right.push_back({1, kOutside, end});
+    }
+    std::uint32_t at = mesh_.origin(h).value();
+    for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
+      const bool end_left = i + 1 < left.size() && (j + 1 == right.size() || left[i].end <= right[j].end);
+      const std::uint32_t to = end_left ? left[i].point : right[j].point;
+      add_segment(at, to, left[i].group, right[j].group);
+      at = to;
+      end_left ? ++i : ++j;
+    }
+  }
+
+  const FlowGraph& graph_;
+  const FlowMesh& mesh_;
+  std::span<const std::uint32_t> group_;
+  HalfedgeId* side_of_piece_;
+  Slot& slot_;
+};
+
+}  // namespace
+
+FlowPoint CatchmentBorders::point(const FlowGraph& graph, std::uint32_t number) const {
+  const FlowMesh& mesh = graph.mesh;
+  if (number < mesh.vertex_count()) {
+    const VertexId v{number};
+    return {.xy = mesh.point(v), .z = mesh.height(v), .edge = {}, .along = 0, .vertex = mesh.given(v)};
+  }
+  const std::uint32_t piece = number - static_cast<std::uint32_t>(mesh.vertex_count());
+  const HalfedgeId h = side_of_piece[piece];
+  const Point2 a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
+  const double share = graph.pieces[piece].end;
+  return {.xy = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)},
+          .z = 0,
+          .edge = mesh.given(h),
+          .along = share,
+          .vertex = {}};
+}
+
+CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint32_t> group_of_sink,
+                              const Progress& progress) {
+  LargeVector<std::uint32_t> group(graph.node_count());
+  for_each_block(group.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t node = begin; node < end; ++node) {
+      const std::uint32_t sink = graph.sink_of_node(static_cast<FlowNode>(node));
+      group[node] = sink == SinkId::kInvalid ? kOutside : group_of_sink[sink];
+    }
+  });
+  CatchmentBorders borders;
+  borders.side_of_piece = std::make_unique_for_overwrite<HalfedgeId[]>(graph.pieces.size());
+  const Grounds grounds{graph, group, borders.side_of_piece.get()};
+  for_each_block_in_order<Slot>(
+      graph.mesh.halfedge_count(), kBlock, progress,
+      [&](std::size_t begin, std::size_t end, Slot& slot) {
+        BorderFinder finder(grounds, slot);
+        for (std::size_t h = begin; h < end; ++h) finder.look_at(HalfedgeId{h});
+      },
+      [&](std::size_t /*begin*/, std::size_t /*end*/, const Slot& slot) {
+        borders.segments.insert(borders.segments.end(), slot.segments.begin(), slot.segments.end());
+      });
+  return borders;
+}
+
+}  // namespace thalweg

@@ -1,0 +1,42 @@
+#pragma once
+
+/// The borders between the grounds of groups of sinks, piece by piece.
+
+#include "terrain/flow_graph.hpp"
+
+#include <thalweg/base/progress.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+/// A piece of border with the ground of the group to its left. Its ends are points by number: vertices, and
+/// after them the ends of pieces.
+struct BorderSegment {
+  std::uint32_t group = 0;
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+};
+
+struct CatchmentBorders {
+  /// Every border once for each of the grounds beside it; what is outside of the TIN has none.
+  std::vector<BorderSegment> segments;
+  /// By piece, of those that are ends: its side.
+  std::unique_ptr<HalfedgeId[]> side_of_piece;
+
+  [[nodiscard]] FlowPoint point(const FlowGraph& graph, std::uint32_t number) const;
+  /// What puts points into an order that does not depend on the mesh's numbers: the TIN's, of vertices.
+  [[nodiscard]] static std::uint32_t rank(const FlowMesh& mesh, std::uint32_t number) {
+    return number < mesh.vertex_count() ? mesh.given(VertexId{number}).value() : number;
+  }
+};
+
+/// `group_of_sink`: not the largest number. Complexity: linear; on all threads.
+CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint32_t> group_of_sink,
+                              const Progress& progress);
+
+}  // namespace thalweg

@@ -1,0 +1,237 @@
+// How triangles fall.
+//
+// 1. Triangles in batches: loops over columns, without branches, give for each side the sign of its fall where
+//    rounding cannot change it, where the line of flow through the middle corner meets the side across, and
+//    the squares of the slopes of the triangle and its sides. As in the scalar functions, of which these are
+//    copies, all operations are rounded correctly and none is fused, so the bits are the same.
+// 2. Triangles with a side that is not sure, or level, are looked at one by one, by the exact predicate.
+// 3. The steepest way down from each vertex is chosen in the order of triangles: an edge, or the line of flow
+//    of a triangle over both of whose sides at the vertex water enters. Ties: the end that is first by (x, y).
+#include "base/ordered_blocks.hpp"
+#include "terrain/flow_graph.hpp"
+
+#include <thalweg/geometry/slope.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kBatch = 128;  // columns of a page each would share the cache's sets
+using Column = std::array<double, kBatch>;
+
+/// Triangles with corners a, b, c; sides are ab, bc, ca.
+struct Batch {
+  std::array<Column, 3> x, y, z;
+  std::array<Column, 3> fall;  ///< over each side: positive out, negative in, 0 not sure
+  Column split_at;
+  std::array<Column, 3> side_slope;  ///< squared
+  Column slope;                      ///< squared
+};
+
+struct Corner {
+  double x, y, z;
+};
+
+/// As fall_across, with 0 where that would go on to its exact stage.
+inline double sure_fall(const Corner& a, const Corner& b, const Corner& c) {
+  constexpr double kBound = 10 * 0x1p-53;
+  constexpr double kNoUnderflow = 1e-280;
+  const double ux = b.x - a.x, uy = b.y - a.y;
+  const double vx = c.x - a.x, vy = c.y - a.y;
+  const double rise = (c.z - a.z) * (ux * ux + uy * uy);
+  const double x = ux * vx, y = uy * vy;
+  const double determinant = rise - (b.z - a.z) * (x + y);
+  const double magnitude = std::abs(rise) + std::abs(b.z - a.z) * (std::abs(x) + std::abs(y));
+  const bool sure = (magnitude > kNoUnderflow) & (std::abs(determinant) > kBound * magnitude);
+  return sure ? determinant : 0;
+}
+
+inline double squared_slope(const Corner& a, const Corner& b) {
+  const double x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
+  return z * z / (x * x + y * y);
+}
+
+// Never at an end, whatever rounding says: then both sides have pieces, and lines end where others begin.
+inline double inner_share(double share) {
+  constexpr double kLeast = 0x1p-50;
+  const double bounded = share > 1 ? 1 : share < 0 ? 0 : share;
+  const double known = share == share ? bounded : 0.5;
+  return known < kLeast ? kLeast : known > 1 - kLeast ? 1 - kLeast : known;
+}
+
+// The choice is made before sanitizers are ready.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void measure(Batch& batch) {
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const Corner a{batch.x[0][i], batch.y[0][i], batch.z[0][i]};
+    const Corner b{batch.x[1][i], batch.y[1][i], batch.z[1][i]};
+    const Corner c{batch.x[2][i], batch.y[2][i], batch.z[2][i]};
+    const double over_ab = sure_fall(a, b, c), over_bc = sure_fall(b, c, a), over_ca = sure_fall(c, a, b);
+    batch.fall[0][i] = over_ab;
+    batch.fall[1][i] = over_bc;
+    batch.fall[2][i] = over_ca;
+    batch.side_slope[0][i] = squared_slope(a, b);
+    batch.side_slope[1][i] = squared_slope(b, c);
+    batch.side_slope[2][i] = squared_slope(c, a);
+    const double x1 = b.x - a.x, y1 = b.y - a.y, z1 = b.z - a.z;
+    const double x2 = c.x - a.x, y2 = c.y - a.y, z2 = c.z - a.z;
+    const double gx = z1 * y2 - z2 * y1, gy = x1 * z2 - x2 * z1, area = x1 * y2 - x2 * y1;
+    batch.slope[i] = (gx * gx + gy * gy) / (area * area);
+    // Of three sides one is In and two are not, or the reverse: the odd one is split.
+    const bool ab = over_ab < 0, bc = over_bc < 0, ca = over_ca < 0;
+    const bool one = ab ^ bc ^ ca;
+    const bool first = ab == one, second = bc == one;
+    const auto turned = [&](double p, double q, double r) { return first ? p : (second ? q : r); };
+    const double ox = turned(a.x, b.x, c.x), oy = turned(a.y, b.y, c.y);
+    const double whole = gx * (turned(b.y, c.y, a.y) - oy) - gy * (turned(b.x, c.x, a.x) - ox);
+    const double part = gx * (turned(c.y, a.y, b.y) - oy) - gy * (turned(c.x, a.x, b.x) - ox);
+    batch.split_at[i] = inner_share(part / whole);
+  }
+}
+
+/// What a block of triangles found.
+struct Slot {
+  std::vector<std::array<double, 4>> slopes;  ///< squared, by triangle: of its sides, and its own
+  std::vector<HalfedgeId> rim;
+};
+
+class FallFinder {
+ public:
+  explicit FallFinder(FlowGraph& graph) : graph_(graph), mesh_(graph.mesh) {
+    graph_.fall.resize(mesh_.halfedge_count());
+    graph_.split_at.resize(mesh_.triangle_count());
+    graph_.step.resize(mesh_.vertex_count());
+  }
+
+  void run(const Progress& progress) {
+    for_each_block_in_order<Slot>(
+        mesh_.triangle_count(), kBlock, progress,
+        [&](std::size_t begin, std::size_t end, Slot& slot) {
+          Batch batch{};
+          slot.slopes.resize(end - begin);
+          slot.rim.clear();
+          for (std::size_t t = begin; t < end; t += kBatch) {
+            const std::size_t stop = std::min(end, t + kBatch);
+            load(t, stop, batch);
+            measure(batch);
+            store(t, stop, batch, &slot.slopes[t - begin]);
+          }
+          for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
+            if (mesh_.on_rim(HalfedgeId{h})) slot.rim.push_back(HalfedgeId{h});
+          }
+        },
+        [&](std::size_t begin, std::size_t end, const Slot& slot) {
+          for (std::size_t t = begin; t < end; ++t) offer(TriangleId{t}, slot.slopes[t - begin]);
+          graph_.rim.insert(graph_.rim.end(), slot.rim.begin(), slot.rim.end());
+        });
+  }
+
+ private:
+  void load(std::size_t begin, std::size_t end, Batch& batch) const {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& corners = mesh_.triangle(TriangleId{t});
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Point2 p = mesh_.point(corners[k]);
+        batch.x[k][t - begin] = p.x;
+        batch.y[k][t - begin] = p.y;
+        batch.z[k][t - begin] = mesh_.height(corners[k]);
+      }
+    }
+  }
+
+  void store(std::size_t begin, std::size_t end, const Batch& batch, std::array<double, 4>* slopes) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::size_t i = t - begin;
+      const double ab = batch.fall[0][i], bc = batch.fall[1][i], ca = batch.fall[2][i];
+      if (ab != 0 && bc != 0 && ca != 0) {
+        graph_.fall[3 * t] = ab > 0 ? Fall::Out : Fall::In;
+        graph_.fall[3 * t + 1] = bc > 0 ? Fall::Out : Fall::In;
+        graph_.fall[3 * t + 2] = ca > 0 ? Fall::Out : Fall::In;
+        graph_.split_at[t] = batch.split_at[i];
+      } else {
+        look_at(TriangleId{t});
+      }
+      slopes[i] = {batch.side_slope[0][i], batch.side_slope[1][i], batch.side_slope[2][i], batch.slope[i]};
+    }
+  }
+
+  void look_at(TriangleId t) {
+    const Triangle& c = mesh_.triangle(t);
+    if (mesh_.height(c[0]) == mesh_.height(c[1]) && mesh_.height(c[1]) == mesh_.height(c[2])) return;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const VertexId a = c[side], b = c[(side + 1) % 3], apex = c[(side + 2) % 3];
+      const int sign = fall_across(mesh_.point(a), mesh_.height(a), mesh_.point(b), mesh_.height(b),
+                                   mesh_.point(apex), mesh_.height(apex));
+      graph_.fall[3 * t.index() + side] = sign > 0 ? Fall::Out : sign < 0 ? Fall::In : Fall::Along;
+    }
+    Strip strip = graph_.strip_of(t);
+    strip.at = inner_share(graph_.share_of(t, strip, mesh_.point(mesh_.apex(strip.split))));
+    if (strip.corner_is_low && graph_.fall[Tin::next(strip.split).index()] == Fall::Along) {
+      strip.at = 1;
+    } else if (strip.corner_is_low && graph_.fall[Tin::previous(strip.split).index()] == Fall::Along) {
+      strip.at = 0;
+    }
+    graph_.split_at[t.index()] = strip.at;
+  }
+
+  void offer(TriangleId t, const std::array<double, 4>& slopes) {
+    const Triangle& c = mesh_.triangle(t);
+    const std::array<double, 3> z = {mesh_.height(c[0]), mesh_.height(c[1]), mesh_.height(c[2])};
+    for (std::size_t out = 0; out < 3; ++out) {
+      const std::size_t far = out == 2 ? 0 : out + 1, in = out == 0 ? 2 : out - 1;
+      const HalfedgeId side = Tin::halfedge(t, out), before = Tin::halfedge(t, in);
+      if (z[far] < z[out]) choose(c[out], {slopes[out], side, VertexStep::Kind::Edge});
+      if (mesh_.on_rim(before) && z[in] < z[out]) {
+        choose(c[out], {slopes[in], before, VertexStep::Kind::Edge});
+      }
+      if (graph_.fall[side.index()] == Fall::In && graph_.fall[before.index()] == Fall::In) {
+        choose(c[out], {slopes[3], Tin::halfedge(t, far), VertexStep::Kind::Cross});
+      }
+    }
+  }
+
+  void choose(VertexId v, const VertexStep& step) {
+    VertexStep& best = graph_.step[v.index()];
+    if (step.squared_slope < best.squared_slope) return;
+    if (step.squared_slope == best.squared_slope && goes_before(v, best, step)) return;
+    best = step;
+  }
+
+  // Where both are equally steep.
+  [[nodiscard]] bool goes_before(VertexId v, const VertexStep& a, const VertexStep& b) const {
+    const Point2 p = end_of(v, a), q = end_of(v, b);
+    if (p != q) return p < q;
+    const HalfedgeId g = mesh_.given(out_of(v, a)), h = mesh_.given(out_of(v, b));
+    return h < g || (g == h && a.kind == VertexStep::Kind::Cross);
+  }
+
+  [[nodiscard]] Point2 end_of(VertexId v, const VertexStep& step) const {
+    if (step.kind == VertexStep::Kind::Edge) return mesh_.point(graph_.neighbour(v, step));
+    return std::min(mesh_.point(mesh_.origin(step.edge)), mesh_.point(mesh_.target(step.edge)));
+  }
+
+  /// The halfedge that starts at v in the step's triangle.
+  [[nodiscard]] HalfedgeId out_of(VertexId v, const VertexStep& step) const {
+    if (step.kind == VertexStep::Kind::Cross) return Tin::previous(step.edge);
+    return mesh_.origin(step.edge) == v ? step.edge : Tin::next(step.edge);
+  }
+
+  FlowGraph& graph_;
+  const FlowMesh& mesh_;
+};
+
+}  // namespace
+
+void find_falls(FlowGraph& graph, const Progress& progress) {
+  FallFinder(graph).run(progress);
+}
+
+}  // namespace thalweg

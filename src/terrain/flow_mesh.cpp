@@ -1,0 +1,109 @@
+// Numbers along a curve.
+//
+// 1. Vertices along a Hilbert curve; triangles by their smallest vertex, bucket by bucket.
+// 2. What is next to what does not change, so twins are looked up, not searched.
+#include "terrain/flow_mesh.hpp"
+
+#include "base/parallel.hpp"
+#include "delaunay/spatial_order.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace thalweg {
+
+namespace {
+
+constexpr std::size_t kBlock = 8192;
+
+// Measured on random points: from here on numbers along a curve save more than they cost.
+constexpr std::size_t kFarApart = 1U << 14U;
+constexpr std::size_t kSampledTriangles = 4096;
+
+/// How far apart the numbers of vertices of one edge are, on average over a sample.
+bool is_scattered(const Tin& tin) {
+  const std::size_t step = tin.triangle_count() / kSampledTriangles + 1;
+  std::size_t sum = 0, count = 0;
+  for (std::size_t t = 0; t < tin.triangle_count(); t += step, ++count) {
+    const Triangle& c = tin.triangle(TriangleId{t});
+    const auto [low, high] = std::minmax({c[0], c[1], c[2]});
+    sum += high.index() - low.index();
+  }
+  return sum > kFarApart * count;
+}
+
+}  // namespace
+
+FlowMesh::FlowMesh(const Tin& tin, const Progress& progress)
+    : tin_(tin),
+      points_(tin.points()),
+      heights_(tin.heights()),
+      triangles_(tin.triangles()),
+      twins_(tin.arrays().twins) {
+  if (!is_scattered(tin)) return;
+  number_vertices(progress);
+  number_triangles(progress);
+  link_triangles(progress);
+  points_ = moved_points_;
+  heights_ = moved_heights_;
+  triangles_ = moved_triangles_;
+  twins_ = moved_twins_;
+}
+
+void FlowMesh::number_vertices(const Progress& progress) {
+  const std::size_t n = tin_.vertex_count();
+  const std::vector<std::uint32_t> order = hilbert_order(tin_.points(), progress);
+  given_vertex_.resize(n);
+  own_vertex_.resize(n);
+  moved_points_.resize(n);
+  moved_heights_.resize(n);
+  for_each_block(n, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const VertexId given{order[v]};
+      given_vertex_[v] = given;
+      own_vertex_[given.index()] = VertexId{v};
+      moved_points_[v] = tin_.point(given);
+      moved_heights_[v] = tin_.height(given);
+    }
+  });
+}
+
+void FlowMesh::number_triangles(const Progress& progress) {
+  const std::size_t count = tin_.triangle_count();
+  LargeVector<std::uint32_t> smallest(count);
+  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& c = tin_.triangle(TriangleId{t});
+      smallest[t] = std::min({own(c[0]), own(c[1]), own(c[2])}).value();
+    }
+  });
+  std::vector<std::uint32_t> next(tin_.vertex_count() + 1, 0);
+  for (const std::uint32_t v : smallest) ++next[v + 1];
+  for (std::size_t v = 0; v < tin_.vertex_count(); ++v) next[v + 1] += next[v];
+  given_triangle_.resize(count);
+  own_triangle_.resize(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const TriangleId place{next[smallest[t]]++};
+    own_triangle_[t] = place;
+    given_triangle_[place.index()] = TriangleId{t};
+  }
+}
+
+void FlowMesh::link_triangles(const Progress& progress) {
+  const std::size_t count = tin_.triangle_count();
+  moved_triangles_.resize(count);
+  moved_twins_.resize(3 * count);
+  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const TriangleId given = given_triangle_[t];
+      const Triangle& c = tin_.triangle(given);
+      moved_triangles_[t] = {own(c[0]), own(c[1]), own(c[2])};
+      for (std::size_t side = 0; side < 3; ++side) {
+        const HalfedgeId twin = tin_.twin(Tin::halfedge(given, side));
+        moved_twins_[3 * t + side] = twin.valid() ? own(twin) : twin;
+      }
+    }
+  });
+}
+
+}  // namespace thalweg

@@ -1,0 +1,90 @@
+#pragma once
+
+/// The triangles of a TIN, numbered so that what is near in the plane is near in memory.
+
+#include "base/large_pages.hpp"
+
+#include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/tin.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace thalweg {
+
+/// Vertices and triangles of a TIN under numbers of its own: the TIN's, where its edges join vertices of near
+/// numbers, else new ones along a Hilbert curve. Triangles start at the same corner as in the TIN, so what is
+/// computed of one has the same bits. Refers to the TIN.
+class FlowMesh {
+ public:
+  /// Complexity: linear; on all threads.
+  FlowMesh(const Tin& tin, const Progress& progress);
+  FlowMesh(const FlowMesh&) = delete;
+  FlowMesh& operator=(const FlowMesh&) = delete;
+  ~FlowMesh() = default;
+
+  [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
+  [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
+  [[nodiscard]] std::size_t halfedge_count() const { return 3 * triangles_.size(); }
+  [[nodiscard]] Point2 point(VertexId v) const { return points_[v.index()]; }
+  [[nodiscard]] double height(VertexId v) const { return heights_[v.index()]; }
+  [[nodiscard]] const Triangle& triangle(TriangleId t) const { return triangles_[t.index()]; }
+  [[nodiscard]] VertexId origin(HalfedgeId h) const { return triangles_[h.index() / 3][h.index() % 3]; }
+  [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
+  [[nodiscard]] VertexId apex(HalfedgeId h) const { return origin(Tin::previous(h)); }
+  [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h.index()]; }
+  [[nodiscard]] bool on_rim(HalfedgeId h) const { return !twin(h).valid(); }
+  [[nodiscard]] bool represents_edge(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
+  [[nodiscard]] EdgeKind kind(HalfedgeId h) const { return tin_.kind(given(h)); }
+
+  /// The TIN's number of what has a number here.
+  [[nodiscard]] VertexId given(VertexId v) const { return same() ? v : given_vertex_[v.index()]; }
+  [[nodiscard]] HalfedgeId given(HalfedgeId h) const {
+    return same() ? h : HalfedgeId{3 * given_triangle_[h.index() / 3].index() + h.index() % 3};
+  }
+  /// The number here of what has a number in the TIN.
+  [[nodiscard]] VertexId own(VertexId v) const { return same() ? v : own_vertex_[v.index()]; }
+  [[nodiscard]] TriangleId own(TriangleId t) const { return same() ? t : own_triangle_[t.index()]; }
+  [[nodiscard]] HalfedgeId own(HalfedgeId h) const {
+    return same() ? h : HalfedgeId{3 * own_triangle_[h.index() / 3].index() + h.index() % 3};
+  }
+  /// True if the numbers are the TIN's.
+  [[nodiscard]] bool same() const { return given_vertex_.empty(); }
+
+  /// Calls `visit(halfedge)` for each halfedge that starts at v, in the order of their numbers in the TIN.
+  template <class Visit>
+  void for_each_out(VertexId v, const Visit& visit) const {
+    for (const HalfedgeId h : tin_.outgoing(given(v))) visit(own(h));
+  }
+  /// Calls `visit(neighbour, halfedge of the edge)` for each neighbour; those on interior edges once.
+  template <class Visit>
+  void for_each_neighbour(VertexId v, const Visit& visit) const {
+    for_each_out(v, [&](HalfedgeId out) {
+      visit(target(out), out);
+      const HalfedgeId in = Tin::previous(out);
+      if (on_rim(in)) visit(origin(in), in);
+    });
+  }
+  [[nodiscard]] bool in_a_triangle(VertexId v) const { return !tin_.outgoing(given(v)).empty(); }
+  /// A halfedge that starts at v. Pre: v is in a triangle.
+  [[nodiscard]] HalfedgeId some_out(VertexId v) const { return own(tin_.outgoing(given(v)).front()); }
+
+ private:
+  void number_vertices(const Progress& progress);
+  void number_triangles(const Progress& progress);
+  void link_triangles(const Progress& progress);
+
+  const Tin& tin_;
+  std::span<const Point2> points_;
+  std::span<const double> heights_;
+  std::span<const Triangle> triangles_;
+  std::span<const HalfedgeId> twins_;
+  LargeVector<VertexId> given_vertex_, own_vertex_;
+  LargeVector<TriangleId> given_triangle_, own_triangle_;
+  LargeVector<Point2> moved_points_;
+  LargeVector<double> moved_heights_;
+  LargeVector<Triangle> moved_triangles_;
+  LargeVector<HalfedgeId> moved_twins_;
+};
+
+}  // namespace thalweg
