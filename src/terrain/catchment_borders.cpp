@@ -9,7 +9,7 @@
 #include "base/ordered_blocks.hpp"
 #include "base/parallel.hpp"
 
-#include <algorithm>
+#include <vector>
 
 namespace thalweg {
 
@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kBlock = 12288;
+constexpr std::size_t kAhead = 24;  // halfedges by which pieces are asked for before they are needed
 
 /// A part of an edge whose one side is of one group; `point` is its end.
 struct Part {
@@ -35,7 +36,7 @@ struct Slot {
 struct Grounds {
   const FlowGraph& graph;
   std::span<const std::uint32_t> group;  ///< by node
-  HalfedgeId* side_of_piece;
+  std::span<HalfedgeId> side_of_piece;
 };
 
 class BorderFinder {
@@ -49,10 +50,15 @@ class BorderFinder {
     slot_.segments.clear();
   }
 
+  void ask_for(HalfedgeId h) const {
+    const FlowTarget target = graph_.target[h.index()];
+    if (target.many()) __builtin_prefetch(graph_.pieces.at(target.index()));
+  }
+
   void look_at(HalfedgeId h) {
     const Fall fall = graph_.fall[h.index()];
-    if (fall == Fall::In && graph_.target[h.index()].many != 0) add_lines(h);
-    if (fall == Fall::Out && graph_.channel[h.index()] == 0) add_line_to_top(h);
+    if (fall == Fall::In && graph_.target[h.index()].many()) add_lines(h);
+    if (fall == Fall::Out && graph_.shape[h.index() / 3].line_to_top != 0) add_line_to_top(h);
     if (mesh_.represents_edge(h)) add_edge(h);
   }
 
@@ -69,12 +75,13 @@ class BorderFinder {
 
   // Seen uphill the shares of an In side grow to the left.
   void add_lines(HalfedgeId h) {
-    std::uint32_t i = graph_.target[h.index()].index;
-    for (std::uint32_t right = group_[graph_.pieces[i].node]; graph_.pieces[i].last == 0; ++i) {
-      const std::uint32_t left = group_[graph_.pieces[i + 1].node];
+    std::uint32_t i = graph_.target[h.index()].index();
+    const FlowPiece* piece = graph_.pieces.at(i);
+    for (std::uint32_t right = group_[piece->node]; piece->last == 0; ++i, ++piece) {
+      const std::uint32_t left = group_[piece[1].node];
       if (left != right) {
         side_of_piece_[i] = h;
-        const std::uint32_t from = graph_.pieces[i].from;
+        const std::uint32_t from = piece->from;
         add_segment(from == FlowPiece::kFromCorner ? mesh_.apex(h).value() : point_of_piece(from),
                     point_of_piece(i), left, right);
       }
@@ -83,15 +90,11 @@ class BorderFinder {
   }
 
   void add_line_to_top(HalfedgeId h) {
-    const FlowTarget target = graph_.beyond(h);
-    if (target.many == 0) return;
-    const std::size_t after = Tin::next(h).index(), before = Tin::previous(h).index();
-    if (graph_.fall[after] != Fall::In || graph_.fall[before] != Fall::In) return;
     const double top = 1 - graph_.split_at[h.index() / 3];
-    for (std::uint32_t i = target.index; graph_.pieces[i].last == 0; ++i) {
-      if (graph_.pieces[i].end != top) continue;
-      add_segment(point_of_piece(i), mesh_.apex(h).value(), group_[graph_.pieces[i + 1].node],
-                  group_[graph_.pieces[i].node]);
+    std::uint32_t i = graph_.beyond(h).index();
+    for (const FlowPiece* piece = graph_.pieces.at(i); piece->last == 0; ++i, ++piece) {
+      if (piece->end != top) continue;
+      add_segment(point_of_piece(i), mesh_.apex(h).value(), group_[piece[1].node], group_[piece->node]);
     }
   }
 
@@ -116,12 +119,12 @@ class BorderFinder {
         break;
     }
     const FlowTarget target = graph_.target[h.index()];
-    if (target.many == 0) return all_of(target.index);
-    for (std::uint32_t i = target.index;; ++i) {
-      const FlowPiece& piece = graph_.pieces[i];
-      const bool last = piece.last != 0;
-      const std::uint32_t group = group_[piece.node];
-      const Part part{last ? 1 : piece.end, group, last ? mesh_.target(h).value() : point_of_piece(i)};
+    if (!target.many()) return all_of(target.index());
+    std::uint32_t i = target.index();
+    for (const FlowPiece* piece = graph_.pieces.at(i);; ++i, ++piece) {
+      const bool last = piece->last != 0;
+      const std::uint32_t group = group_[piece->node];
+      const Part part{last ? 1 : piece->end, group, last ? mesh_.target(h).value() : point_of_piece(i)};
       if (!parts.empty() && parts.back().group == group) {
         parts.back() = part;
       } else {
@@ -166,7 +169,7 @@ class BorderFinder {
   const FlowGraph& graph_;
   const FlowMesh& mesh_;
   std::span<const std::uint32_t> group_;
-  HalfedgeId* side_of_piece_;
+  std::span<HalfedgeId> side_of_piece_;
   Slot& slot_;
 };
 
@@ -181,7 +184,7 @@ FlowPoint CatchmentBorders::point(const FlowGraph& graph, std::uint32_t number) 
   const std::uint32_t piece = number - static_cast<std::uint32_t>(mesh.vertex_count());
   const HalfedgeId h = side_of_piece[piece];
   const Point2 a = mesh.point(mesh.origin(h)), b = mesh.point(mesh.target(h));
-  const double share = graph.pieces[piece].end;
+  const double share = graph.pieces.at(piece)->end;
   return {.xy = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)},
           .z = 0,
           .edge = mesh.given(h),
@@ -199,13 +202,17 @@ CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint3
     }
   });
   CatchmentBorders borders;
-  borders.side_of_piece = std::make_unique_for_overwrite<HalfedgeId[]>(graph.pieces.size());
-  const Grounds grounds{graph, group, borders.side_of_piece.get()};
+  borders.segments.reserve(graph.mesh.vertex_count());
+  borders.side_of_piece.resize(graph.pieces.end());
+  const Grounds grounds{graph, group, borders.side_of_piece};
   for_each_block_in_order<Slot>(
       graph.mesh.halfedge_count(), kBlock, progress,
       [&](std::size_t begin, std::size_t end, Slot& slot) {
         BorderFinder finder(grounds, slot);
-        for (std::size_t h = begin; h < end; ++h) finder.look_at(HalfedgeId{h});
+        for (std::size_t h = begin; h < end; ++h) {
+          if (h + kAhead < end) finder.ask_for(HalfedgeId{h + kAhead});
+          finder.look_at(HalfedgeId{h});
+        }
       },
       [&](std::size_t /*begin*/, std::size_t /*end*/, const Slot& slot) {
         borders.segments.insert(borders.segments.end(), slot.segments.begin(), slot.segments.end());

@@ -8,9 +8,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <span>
-#include <vector>
 
 namespace thalweg {
 
@@ -24,9 +22,9 @@ struct BorderSegment {
 
 struct CatchmentBorders {
   /// Every border once for each of the grounds beside it; what is outside of the TIN has none.
-  std::vector<BorderSegment> segments;
+  LargeVector<BorderSegment> segments;
   /// By piece, of those that are ends: its side.
-  std::unique_ptr<HalfedgeId[]> side_of_piece;
+  LargeVector<HalfedgeId> side_of_piece;
 
   [[nodiscard]] FlowPoint point(const FlowGraph& graph, std::uint32_t number) const;
   /// What puts points into an order that does not depend on the mesh's numbers: the TIN's, of vertices.

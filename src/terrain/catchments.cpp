@@ -162,27 +162,40 @@ class Chainer {
   std::vector<CatchmentRing> rings_;
 };
 
-/// The segments by group, and where each group's begin; then the end.
-std::vector<std::size_t> sort_by_group(std::vector<BorderSegment>& segments,
-                                       std::span<const std::uint32_t> group_of_sink) {
+/// Sorts segments by group, groups in the order in which they come, so that near ones are near; returns where
+/// each group's begin, then the end. `groups`: those that there are, ascending.
+std::vector<std::size_t> sort_by_group(LargeVector<BorderSegment>& segments,
+                                       std::span<const std::uint32_t> groups) {
+  constexpr std::uint32_t kUnseen = 0xffffffffU;
+  const bool plain = !groups.empty() && groups.back() < 2 * groups.size();  // then no search for its place
+  std::vector<std::uint32_t> number(plain ? groups.back() + 1 : groups.size(), kUnseen);
+  const auto number_of = [&](std::uint32_t group) -> std::uint32_t& {
+    return number[plain ? group
+                        : static_cast<std::size_t>(
+                              std::lower_bound(groups.begin(), groups.end(), group) - groups.begin())];
+  };
+  std::vector<std::size_t> first(1, 0);
+  for (const BorderSegment& s : segments) {
+    std::uint32_t& known = number_of(s.group);
+    if (known == kUnseen) {
+      known = static_cast<std::uint32_t>(first.size() - 1);
+      first.push_back(0);
+    }
+    ++first[known + 1];
+  }
+  for (std::size_t g = 1; g < first.size(); ++g) first[g] += first[g - 1];
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  LargeVector<BorderSegment> sorted(segments.size());
+  for (const BorderSegment& s : segments) sorted[next[number_of(s.group)]++] = s;
+  segments = std::move(sorted);
+  return first;
+}
+
+std::vector<std::uint32_t> without_repeats(std::span<const std::uint32_t> group_of_sink) {
   std::vector<std::uint32_t> groups(group_of_sink.begin(), group_of_sink.end());
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  const bool plain = !groups.empty() && groups.back() < group_of_sink.size();
-  const std::size_t count = plain ? groups.back() + 1 : groups.size();
-  const auto rank = [&](std::uint32_t group) {
-    return plain ? group
-                 : static_cast<std::size_t>(std::lower_bound(groups.begin(), groups.end(), group) -
-                                            groups.begin());
-  };
-  std::vector<std::size_t> first(count + 1, 0);
-  for (const BorderSegment& s : segments) ++first[rank(s.group) + 1];
-  for (std::size_t g = 0; g < count; ++g) first[g + 1] += first[g];
-  std::vector<std::size_t> next(first.begin(), first.end() - 1);
-  std::vector<BorderSegment> sorted(segments.size());
-  for (const BorderSegment& s : segments) sorted[next[rank(s.group)]++] = s;
-  segments = std::move(sorted);
-  return first;
+  return groups;
 }
 
 }  // namespace
@@ -194,16 +207,17 @@ std::vector<Catchment> outline_catchments(const SurfaceFlow& flow,
   const FlowGraph& graph = flow.graph();
   CatchmentBorders borders = find_borders(graph, group_of_sink, progress);
   progress.advance(0.5);
-  const std::vector<std::size_t> first = sort_by_group(borders.segments, group_of_sink);
+  const std::vector<std::size_t> first = sort_by_group(borders.segments, without_repeats(group_of_sink));
   std::vector<Catchment> catchments(first.size() - 1);
   for_each_block(catchments.size(), kGroups, progress, {0.6, 1}, [&](std::size_t begin, std::size_t end) {
     Chainer chainer(graph, borders);
     for (std::size_t g = begin; g < end; ++g) {
-      if (first[g] == first[g + 1]) continue;
       catchments[g] = chainer.chain(std::span(borders.segments).subspan(first[g], first[g + 1] - first[g]));
     }
   });
   std::erase_if(catchments, [](const Catchment& catchment) { return catchment.polygons.empty(); });
+  std::sort(catchments.begin(), catchments.end(),
+            [](const Catchment& a, const Catchment& b) { return a.group < b.group; });
   progress.advance(1);
   return catchments;
 }

@@ -34,8 +34,16 @@ class Resolver {
   }
 
   Flats run(const Progress& progress) {
-    for (std::size_t i = 0; i < mesh_.vertex_count(); ++i) {
-      const VertexId v = mesh_.own(VertexId{i});
+    std::vector<VertexId> without_step;
+    for (std::size_t v = 0; v < mesh_.vertex_count(); ++v) {
+      if (drained_[v] == 0) without_step.push_back(VertexId{v});
+    }
+    if (!mesh_.same()) {
+      std::sort(without_step.begin(), without_step.end(),
+                [&](VertexId v, VertexId w) { return mesh_.given(v) < mesh_.given(w); });
+    }
+    for (std::size_t i = 0; i < without_step.size(); ++i) {
+      const VertexId v = without_step[i];
       if (i % kBlock == 0) progress.check();
       if (is_settled(v) || !mesh_.in_a_triangle(v)) continue;
       walk(v);

@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;
 constexpr std::size_t kBatch = 128;  // columns of a page each would share the cache's sets
+constexpr double kNone = -2;     // a squared slope that is less than that of no step
 using Column = std::array<double, kBatch>;
 
 /// Triangles with corners a, b, c; sides are ab, bc, ca.
@@ -29,8 +30,8 @@ struct Batch {
   std::array<Column, 3> x, y, z;
   std::array<Column, 3> fall;  ///< over each side: positive out, negative in, 0 not sure
   Column split_at;
-  std::array<Column, 3> side_slope;  ///< squared
-  Column slope;                      ///< squared
+  std::array<Column, 3> down;  ///< squared slope of each side that falls, from its origin; else kNone
+  Column slope;                ///< squared
 };
 
 struct Corner {
@@ -78,9 +79,9 @@ void measure(Batch& batch) {
     batch.fall[0][i] = over_ab;
     batch.fall[1][i] = over_bc;
     batch.fall[2][i] = over_ca;
-    batch.side_slope[0][i] = squared_slope(a, b);
-    batch.side_slope[1][i] = squared_slope(b, c);
-    batch.side_slope[2][i] = squared_slope(c, a);
+    batch.down[0][i] = b.z < a.z ? squared_slope(a, b) : kNone;
+    batch.down[1][i] = c.z < b.z ? squared_slope(b, c) : kNone;
+    batch.down[2][i] = a.z < c.z ? squared_slope(c, a) : kNone;
     const double x1 = b.x - a.x, y1 = b.y - a.y, z1 = b.z - a.z;
     const double x2 = c.x - a.x, y2 = c.y - a.y, z2 = c.z - a.z;
     const double gx = z1 * y2 - z2 * y1, gy = x1 * z2 - x2 * z1, area = x1 * y2 - x2 * y1;
@@ -99,7 +100,7 @@ void measure(Batch& batch) {
 
 /// What a block of triangles found.
 struct Slot {
-  std::vector<std::array<double, 4>> slopes;  ///< squared, by triangle: of its sides, and its own
+  std::vector<std::array<double, 4>> slopes;  ///< by triangle: `down` of its sides, and its own
   std::vector<HalfedgeId> rim;
 };
 
@@ -107,6 +108,7 @@ class FallFinder {
  public:
   explicit FallFinder(FlowGraph& graph) : graph_(graph), mesh_(graph.mesh) {
     graph_.fall.resize(mesh_.halfedge_count());
+    graph_.shape.resize(mesh_.triangle_count());
     graph_.split_at.resize(mesh_.triangle_count());
     graph_.step.resize(mesh_.vertex_count());
   }
@@ -132,6 +134,7 @@ class FallFinder {
           for (std::size_t t = begin; t < end; ++t) offer(TriangleId{t}, slot.slopes[t - begin]);
           graph_.rim.insert(graph_.rim.end(), slot.rim.begin(), slot.rim.end());
         });
+    for (const HalfedgeId h : graph_.rim) offer_upwards(h);
   }
 
  private:
@@ -151,27 +154,40 @@ class FallFinder {
     for (std::size_t t = begin; t < end; ++t) {
       const std::size_t i = t - begin;
       const double ab = batch.fall[0][i], bc = batch.fall[1][i], ca = batch.fall[2][i];
-      if (ab != 0 && bc != 0 && ca != 0) {
-        graph_.fall[3 * t] = ab > 0 ? Fall::Out : Fall::In;
-        graph_.fall[3 * t + 1] = bc > 0 ? Fall::Out : Fall::In;
-        graph_.fall[3 * t + 2] = ca > 0 ? Fall::Out : Fall::In;
+      if ((ab != 0) & (bc != 0) & (ca != 0)) {
+        const std::array<bool, 3> in = {ab < 0, bc < 0, ca < 0};
+        for (std::size_t side = 0; side < 3; ++side) {
+          graph_.fall[3 * t + side] = in[side] ? Fall::In : Fall::Out;
+        }
+        graph_.shape[t] = shape_of(in);
         graph_.split_at[t] = batch.split_at[i];
       } else {
         look_at(TriangleId{t});
       }
-      slopes[i] = {batch.side_slope[0][i], batch.side_slope[1][i], batch.side_slope[2][i], batch.slope[i]};
+      slopes[i] = {batch.down[0][i], batch.down[1][i], batch.down[2][i], batch.slope[i]};
     }
+  }
+
+  /// The odd one of three sides is split.
+  static TriangleShape shape_of(const std::array<bool, 3>& in) {
+    constexpr std::array<std::uint8_t, 8> kSplit = {0, 0, 1, 2, 2, 1, 0, 0};
+    const unsigned which = (in[0] ? 1U : 0U) | (in[1] ? 2U : 0U) | (in[2] ? 4U : 0U);
+    const bool one = in[0] ^ in[1] ^ in[2];
+    return {.split = static_cast<std::uint8_t>(kSplit[which] & 3U), .corner_is_low = one, .level = 0};
   }
 
   void look_at(TriangleId t) {
     const Triangle& c = mesh_.triangle(t);
     if (mesh_.height(c[0]) == mesh_.height(c[1]) && mesh_.height(c[1]) == mesh_.height(c[2])) return;
+    std::array<bool, 3> in{};
     for (std::size_t side = 0; side < 3; ++side) {
       const VertexId a = c[side], b = c[(side + 1) % 3], apex = c[(side + 2) % 3];
       const int sign = fall_across(mesh_.point(a), mesh_.height(a), mesh_.point(b), mesh_.height(b),
                                    mesh_.point(apex), mesh_.height(apex));
       graph_.fall[3 * t.index() + side] = sign > 0 ? Fall::Out : sign < 0 ? Fall::In : Fall::Along;
+      in[side] = sign < 0;
     }
+    graph_.shape[t.index()] = shape_of(in);
     Strip strip = graph_.strip_of(t);
     strip.at = inner_share(graph_.share_of(t, strip, mesh_.point(mesh_.apex(strip.split))));
     if (strip.corner_is_low && graph_.fall[Tin::next(strip.split).index()] == Fall::Along) {
@@ -184,25 +200,35 @@ class FallFinder {
 
   void offer(TriangleId t, const std::array<double, 4>& slopes) {
     const Triangle& c = mesh_.triangle(t);
-    const std::array<double, 3> z = {mesh_.height(c[0]), mesh_.height(c[1]), mesh_.height(c[2])};
-    for (std::size_t out = 0; out < 3; ++out) {
-      const std::size_t far = out == 2 ? 0 : out + 1, in = out == 0 ? 2 : out - 1;
-      const HalfedgeId side = Tin::halfedge(t, out), before = Tin::halfedge(t, in);
-      if (z[far] < z[out]) choose(c[out], {slopes[out], side, VertexStep::Kind::Edge});
-      if (mesh_.on_rim(before) && z[in] < z[out]) {
-        choose(c[out], {slopes[in], before, VertexStep::Kind::Edge});
-      }
-      if (graph_.fall[side.index()] == Fall::In && graph_.fall[before.index()] == Fall::In) {
-        choose(c[out], {slopes[3], Tin::halfedge(t, far), VertexStep::Kind::Cross});
-      }
+    for (std::size_t side = 0; side < 3; ++side) {
+      choose(c[side], {slopes[side], Tin::halfedge(t, side), VertexStep::Kind::Edge});
     }
+    const TriangleShape shape = graph_.shape[t.index()];
+    if (shape.level != 0 || shape.corner_is_low != 0) return;
+    const HalfedgeId across = Tin::halfedge(t, shape.split);
+    choose(c[shape.split == 0 ? 2 : shape.split - 1U], {slopes[3], across, VertexStep::Kind::Cross});
   }
 
+  // What falls against the direction of its only halfedge.
+  void offer_upwards(HalfedgeId h) {
+    const VertexId low = mesh_.origin(h), high = mesh_.target(h);
+    if (!(mesh_.height(low) < mesh_.height(high))) return;
+    const Point2 p = mesh_.point(low), q = mesh_.point(high);
+    const double slope = squared_slope({q.x, q.y, mesh_.height(high)}, {p.x, p.y, mesh_.height(low)});
+    choose(high, {slope, h, VertexStep::Kind::Edge});
+  }
+
+  // Without a jump where they differ: which is steeper cannot be foreseen.
   void choose(VertexId v, const VertexStep& step) {
     VertexStep& best = graph_.step[v.index()];
-    if (step.squared_slope < best.squared_slope) return;
-    if (step.squared_slope == best.squared_slope && goes_before(v, best, step)) return;
-    best = step;
+    if (step.squared_slope == best.squared_slope) {
+      if (step.squared_slope >= 0 && !goes_before(v, best, step)) best = step;
+      return;
+    }
+    const bool steeper = step.squared_slope > best.squared_slope;
+    best.squared_slope = steeper ? step.squared_slope : best.squared_slope;
+    best.edge = steeper ? step.edge : best.edge;
+    best.kind = steeper ? step.kind : best.kind;
   }
 
   // Where both are equally steep.

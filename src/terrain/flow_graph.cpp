@@ -9,8 +9,6 @@
 // affinely.
 #include "terrain/flow_graph.hpp"
 
-#include <thalweg/base/assert.hpp>
-
 #include <tuple>
 
 namespace thalweg {
@@ -49,23 +47,7 @@ VertexId FlowGraph::low_corner(TriangleId t) const {
 std::uint32_t FlowGraph::sink_of_node(FlowNode node) const {
   if (is_vertex(node)) return sink[vertex_of(node).index()];
   const Channel& at = channel_of(node);
-  return mesh.on_rim(at.edge) ? rim_sink[at.low.index()] : sink[at.low.index()];
-}
-
-Strip FlowGraph::strip_of(TriangleId t) const {
-  std::size_t in = 0, in_side = 0, out_side = 0;
-  for (std::size_t side = 0; side < 3; ++side) {
-    if (fall[3 * t.index() + side] == Fall::In) {
-      ++in;
-      in_side = side;
-    } else {
-      out_side = side;
-    }
-  }
-  THALWEG_ASSERT(in == 1 || in == 2);
-  return {.split = Tin::halfedge(t, in == 1 ? in_side : out_side),
-          .at = split_at[t.index()],
-          .corner_is_low = in == 1};
+  return at.on_rim ? rim_sink[at.low.index()] : sink[at.low.index()];
 }
 
 double FlowGraph::share_of(TriangleId t, const Strip& strip, Point2 p) const {

@@ -6,6 +6,7 @@
 #include "base/large_pages.hpp"
 #include "terrain/flats.hpp"
 #include "terrain/flow_mesh.hpp"
+#include "terrain/flow_piece.hpp"
 
 #include <thalweg/terrain/surface_flow.hpp>
 
@@ -20,25 +21,27 @@ namespace thalweg {
 /// How a triangle falls across its side.
 enum class Fall : std::uint8_t { Level = 0, In = 1, Out = 2, Along = 3 };
 
-/// What water comes to first: a channel, by its number, or a vertex; one number for all.
-using FlowNode = std::uint32_t;
-constexpr FlowNode kNoNode = std::numeric_limits<FlowNode>::max();
+/// What comes to be of the water on a side: one node, or the index of the first of its pieces.
+class FlowTarget {
+ public:
+  FlowTarget() = default;
+  static FlowTarget node(FlowNode node) { return FlowTarget(node); }
+  static FlowTarget pieces(std::uint32_t first) { return FlowTarget(first | kMany); }
+  [[nodiscard]] bool many() const { return (value_ & kMany) != 0; }
+  [[nodiscard]] std::uint32_t index() const { return value_ & ~kMany; }
 
-/// A part of an edge all of whose water comes to one channel or vertex.
-struct FlowPiece {
-  double end = 1;  ///< share of the halfedge's way, from its origin
-  FlowNode node : 31 = 0;
-  std::uint32_t last : 1 = 1;  ///< of its halfedge
-  /// Where the line that ends the piece comes from, downhill: a piece of the edge below (its index), or
-  /// kFromCorner: the corner across.
-  std::uint32_t from = kFromCorner;
-  static constexpr std::uint32_t kFromCorner = std::numeric_limits<std::uint32_t>::max();
+ private:
+  static constexpr std::uint32_t kMany = 1U << 31U;
+  explicit FlowTarget(std::uint32_t value) : value_(value) {}
+  std::uint32_t value_ = 0;
 };
 
-/// What comes to be of the water on a side: one node, or the index of the first of its pieces.
-struct FlowTarget {
-  std::uint32_t index : 31 = 0;
-  std::uint32_t many : 1 = 0;
+/// How flow divides in a triangle: see Strip.
+struct TriangleShape {
+  std::uint8_t split : 2 = 0;  ///< the side that is split
+  std::uint8_t corner_is_low : 1 = 0;
+  std::uint8_t level : 1 = 1;
+  std::uint8_t line_to_top : 1 = 0;  ///< two In sides meet where a piece of the side that is split ends
 };
 
 /// One line of flow through a triangle that is not level, and what lies on both sides of it. Water enters
@@ -53,6 +56,7 @@ struct Strip {
 struct Channel {
   HalfedgeId edge;  ///< the lower of its two
   VertexId low;     ///< the end to which water runs
+  bool on_rim = false;
 };
 
 struct FlowGraph {
@@ -60,13 +64,14 @@ struct FlowGraph {
   FlowMesh mesh;
   Flats flats;
   LargeVector<Fall> fall;             ///< by halfedge
+  LargeVector<TriangleShape> shape;   ///< by triangle
   LargeVector<double> split_at;       ///< by triangle that is not level: `at` of its strip
   LargeVector<std::uint8_t> channel;  ///< by halfedge; both sides agree
   /// By number: those that the falls make, by halfedge, then those that break cycles.
   LargeVector<Channel> channels;
   std::size_t broken_cycles = 0;
   LargeVector<FlowTarget> target;  ///< by halfedge with Fall::In; by one that drains into a channel: that
-  LargeVector<FlowPiece> pieces;
+  PieceStore pieces;
   LargeVector<VertexStep> step;         ///< by vertex
   LargeVector<FlowNode> next;           ///< by vertex: what its water comes to first, kNoNode: see sink
   LargeVector<std::uint32_t> sink;      ///< by vertex
@@ -78,7 +83,7 @@ struct FlowGraph {
   FlowGraph(const Tin& t, const Progress& progress) : tin(t), mesh(t, progress) {}
 
   [[nodiscard]] bool drains(HalfedgeId h) const { return fall[h.index()] >= Fall::Out; }
-  [[nodiscard]] bool level(TriangleId t) const { return fall[3 * t.index()] == Fall::Level; }
+  [[nodiscard]] bool level(TriangleId t) const { return shape[t.index()].level != 0; }
   // Channels that the falls make, vertices, channels that break cycles.
   [[nodiscard]] std::size_t node_count() const { return channels.size() + mesh.vertex_count(); }
   [[nodiscard]] std::size_t first_vertex() const { return channels.size() - broken_cycles; }
@@ -91,7 +96,7 @@ struct FlowGraph {
     return channels[node < first_vertex() ? node : node - mesh.vertex_count()];
   }
   [[nodiscard]] FlowNode node_of_channel(HalfedgeId h) const {
-    return target[(drains(h) ? h : mesh.twin(h)).index()].index;
+    return target[(drains(h) ? h : mesh.twin(h)).index()].index();
   }
   /// Of two vertices of one edge that to which water runs along it.
   [[nodiscard]] VertexId lower(VertexId a, VertexId b) const;
@@ -105,7 +110,10 @@ struct FlowGraph {
     return a == v ? mesh.target(s.edge) : a;
   }
   /// How flow divides in a triangle. Pre: it is not level.
-  [[nodiscard]] Strip strip_of(TriangleId t) const;
+  [[nodiscard]] Strip strip_of(TriangleId t) const {
+    const TriangleShape at = shape[t.index()];
+    return {Tin::halfedge(t, at.split), split_at[t.index()], at.corner_is_low != 0};
+  }
   /// The line of flow through a point of a triangle, as where it would meet `split`'s line.
   [[nodiscard]] double share_of(TriangleId t, const Strip& strip, Point2 p) const;
   /// What runs over h out of its triangle comes to; shares run along h's twin. Pre: drains(h).
@@ -114,8 +122,8 @@ struct FlowGraph {
   }
   /// The pieces of a target, of which `single` is filled where one has to be made.
   [[nodiscard]] const FlowPiece* pieces_of(FlowTarget t, FlowPiece& single) const {
-    if (t.many != 0) return &pieces[t.index];
-    single = {.node = t.index};
+    if (t.many()) return pieces.at(t.index());
+    single = {.end = 1, .node = t.index() & kNodeBits, .last = 1, .from = FlowPiece::kFromCorner};
     return &single;
   }
   /// What water comes to that runs over h at the share `at` of its way. Pre: drains(h).
@@ -125,7 +133,7 @@ struct FlowGraph {
 /// The parts of a FlowGraph, in this order.
 void find_falls(FlowGraph& graph, const Progress& progress);
 void find_channels(FlowGraph& graph, const Progress& progress);
-void find_pieces(FlowGraph& graph, Progress& progress);
+void find_pieces(FlowGraph& graph, const Progress& progress);
 void find_steps(FlowGraph& graph, const Progress& progress);
 void find_sinks(FlowGraph& graph, std::span<const VertexId> outlets);
 void measure_grounds(FlowGraph& graph, const Progress& progress);

@@ -25,55 +25,75 @@ struct Part {
   double area = 0;
 };
 
+/// A triangle on one side of the line that splits it: its shares of a side's way from `from`, at a corner, to
+/// `to`, at the line, in either direction.
+struct Half {
+  FlowTarget target;
+  double from, to, area;
+};
+
 /// Lists the parts of triangles.
 class Divider {
  public:
   Divider(const FlowGraph& graph, std::vector<Part>& parts) : graph_(graph), parts_(parts) {}
 
-  void divide(TriangleId t) {
-    const double area = area_of(graph_.mesh, t);
-    if (graph_.level(t)) {
-      parts_.push_back({graph_.node_of(graph_.low_corner(t)), area});
-      return;
-    }
-    const Strip strip = graph_.strip_of(t);
-    if (strip.corner_is_low) {
-      if (strip.at > 0) add_strips(Tin::previous(strip.split), 0, 1, area * strip.at);
-      if (strip.at < 1) add_strips(Tin::next(strip.split), 1, 0, area * (1 - strip.at));
-    } else {
-      const double top = 1 - strip.at;
-      add_strips(strip.split, 0, top, area * top);
-      add_strips(strip.split, 1, top, area * (1 - top));
+  void divide(std::size_t begin, std::size_t end) {
+    for (; begin < end; begin += kBatch) {
+      halves_.clear();
+      for (std::size_t t = begin; t < std::min(end, begin + kBatch); ++t) add_halves(TriangleId{t});
+      for (const Half& half : halves_) divide(half);
     }
   }
 
  private:
-  /// The strips of a triangle between a corner and the line that splits it, by what they come to. Shares from
-  /// `from` (at the corner) to `to` (at the line), in either direction: a strip's area is the difference of
-  /// squares.
-  void add_strips(HalfedgeId h, double from, double to, double area) {
-    const double whole = to - from;
-    if (whole == 0) return;
-    const FlowTarget target = graph_.beyond(h);
-    if (target.many == 0) {
-      parts_.push_back({target.index, area});
+  static constexpr std::size_t kBatch = 64;  // pieces are asked for so much before they are needed
+
+  void add(FlowTarget target, double from, double to, double area) {
+    if (target.many()) __builtin_prefetch(graph_.pieces.at(target.index()));
+    halves_.push_back({target, from, to, area});
+  }
+
+  void add_halves(TriangleId t) {
+    const double area = area_of(graph_.mesh, t);
+    if (graph_.level(t)) return add(FlowTarget::node(graph_.node_of(graph_.low_corner(t))), 0, 1, area);
+    const Strip strip = graph_.strip_of(t);
+    if (strip.corner_is_low) {
+      if (strip.at > 0) add(graph_.beyond(Tin::previous(strip.split)), 0, 1, area * strip.at);
+      if (strip.at < 1) add(graph_.beyond(Tin::next(strip.split)), 1, 0, area * (1 - strip.at));
+    } else {
+      const double top = 1 - strip.at;
+      const FlowTarget target = graph_.beyond(strip.split);
+      add(target, 0, top, area * top);
+      add(target, 1, top, area * (1 - top));
+    }
+  }
+
+  /// A strip's area is the difference of squares.
+  void divide(const Half& half) {
+    if (!half.target.many()) {
+      parts_.push_back({half.target.index(), half.area});
       return;
     }
-    const double least = std::min(from, to), most = std::max(from, to);
-    double begin = 0;
-    for (const FlowPiece* piece = &graph_.pieces[target.index];; ++piece) {
-      const double low = std::max(begin, least), high = std::min(piece->end, most);
-      begin = piece->end;
+    const double from = half.from, whole = half.to - half.from;
+    const double least = std::min(from, half.to), most = std::max(from, half.to);
+    const FlowPiece* piece = graph_.pieces.at(half.target.index());
+    while (piece->end <= least && piece->last == 0) ++piece;
+    double low = least, p = (low - from) / whole;
+    for (;; ++piece) {
+      const double high = std::min(piece->end, most);
       if (low < high) {
-        const double p = (low - from) / whole, q = (high - from) / whole;
-        parts_.push_back({piece->node, area * std::abs((q - p) * (q + p))});
+        const double q = (high - from) / whole;
+        parts_.push_back({piece->node, half.area * std::abs((q - p) * (q + p))});
+        low = high;
+        p = q;
       }
-      if (piece->last != 0) return;
+      if (piece->last != 0 || piece->end >= most) return;
     }
   }
 
   const FlowGraph& graph_;
   std::vector<Part>& parts_;
+  std::vector<Half> halves_;
 };
 
 }  // namespace
@@ -84,8 +104,7 @@ void measure_grounds(FlowGraph& graph, const Progress& progress) {
       graph.mesh.triangle_count(), kBlock, progress,
       [&](std::size_t begin, std::size_t end, std::vector<Part>& parts) {
         parts.clear();
-        Divider divider(graph, parts);
-        for (std::size_t t = begin; t < end; ++t) divider.divide(TriangleId{t});
+        Divider(graph, parts).divide(begin, end);
       },
       [&](std::size_t /*begin*/, std::size_t /*end*/, const std::vector<Part>& parts) {
         for (const Part& part : parts) graph.ground[part.node] += part.area;

@@ -3,17 +3,18 @@
 // 1. An edge is a channel if a triangle drains into it and none beyond takes the water in. Channels are
 //    numbered by halfedge.
 // 2. The pieces of a triangle's In sides follow from those of the sides over which it hands water on. So
-//    triangles are done in an order in which each comes after those that it hands water to; each counts how
-//    many it waits for.
+//    triangles are done in an order in which each comes after those that it hands water to: each counts how
+//    many it waits for. Parts of the triangles are done side by side; what is handed over from one to another
+//    is counted between two rounds.
 // 3. What is left then waits for itself in a cycle: an edge of one is made a channel, and so on.
 #include "base/parallel.hpp"
 #include "terrain/flow_graph.hpp"
 
-#include <thalweg/base/assert.hpp>
-#include <thalweg/base/error.hpp>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <array>
+#include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -55,56 +56,57 @@ void find_channels(FlowGraph& graph, const Progress& progress) {
     for (std::size_t i = begin; i < end; ++i) {
       const HalfedgeId h{i}, twin = mesh.twin(h);
       if (graph.channel[i] == 0 || !mesh.represents_edge(h)) continue;
-      const FlowTarget target{.index = static_cast<std::uint32_t>(number)};
+      const FlowTarget target = FlowTarget::node(static_cast<FlowNode>(number));
       if (graph.drains(h)) graph.target[i] = target;
       if (twin.valid() && graph.drains(twin)) graph.target[twin.index()] = target;
-      graph.channels[number++] = {h, graph.low_end(h)};
+      graph.channels[number++] = {h, graph.low_end(h), !twin.valid()};
     }
   });
 }
 
 namespace {
 
+/// How many sides each triangle waits for: those over which it hands water on into triangles that are not done.
+using Waiting = LargeVector<std::uint8_t>;
+constexpr std::uint8_t kStart = 0xff;  // it never waited
+constexpr std::uint8_t kLevel = 0xfe;
+
+/// Triangles of one part are done by one thread.
+constexpr std::size_t kPart = 1U << 16U;
+
+bool passes_on(const FlowGraph& graph, HalfedgeId h) {
+  return graph.drains(h) && graph.channel[h.index()] == 0;
+}
+
+Waiting count_awaited(const FlowGraph& graph, const Progress& progress) {
+  Waiting waiting(graph.mesh.triangle_count());
+  for_each_block(waiting.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      unsigned count = 0;
+      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) count += passes_on(graph, HalfedgeId{h}) ? 1U : 0U;
+      const std::uint8_t none = graph.level(TriangleId{t}) ? kLevel : kStart;
+      waiting[t] = count == 0 ? none : static_cast<std::uint8_t>(count);
+    }
+  });
+  return waiting;
+}
+
+/// Finishes triangles of one part, from those that wait for none upwards.
 class PieceFinder {
  public:
-  explicit PieceFinder(FlowGraph& graph)
-      : graph_(graph), mesh_(graph.mesh), waits_for_(mesh_.triangle_count(), 0) {
-    graph_.pieces.reserve(kPiecesAVertex * mesh_.vertex_count());
-  }
+  PieceFinder(FlowGraph& graph, Waiting& waiting, std::size_t part)
+      : graph_(&graph), waiting_(&waiting), part_(part) {}
 
-  void run(Progress& progress) {
-    const std::size_t count = mesh_.triangle_count();
-    for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) waits_for_[t] = count_awaited(TriangleId{t});
-    });
-    for (std::size_t t = 0; t < count; ++t) {
-      if (t % (1U << 13U) == 0) progress.advance(static_cast<double>(t) / static_cast<double>(count));
-      if (waits_for_[t] == 0) finish_from(TriangleId{t}, progress);
-    }
-    for (std::size_t t = 0; t < count; ++t) {
-      while (waits_for_[t] != kDone) {
-        const TriangleId freed = break_cycle(TriangleId{t});
-        if (waits_for_[freed.index()] == 0) finish_from(freed, progress);
-      }
+  /// From all that never waited.
+  void start(PieceStore::Writer& writer, const Progress& progress) {
+    const std::size_t end = std::min((part_ + 1) * kPart, waiting_->size());
+    for (std::size_t t = part_ * kPart; t < end; ++t) {
+      if ((*waiting_)[t] == kStart) finish_from(TriangleId{t}, writer, progress);
     }
   }
-
- private:
-  static constexpr std::uint8_t kDone = 0xff;
-  static constexpr std::size_t kPiecesAVertex = 6;  // measured: 5 on random points and lattices
-
-  /// The sides over which the triangle hands water on into a triangle.
-  [[nodiscard]] std::uint8_t count_awaited(TriangleId t) const {
-    std::uint8_t count = 0;
-    if (graph_.level(t)) return kDone;
-    for (std::size_t side = 0; side < 3; ++side) count += passes_on(Tin::halfedge(t, side)) ? 1 : 0;
-    return count;
-  }
-
-  [[nodiscard]] bool passes_on(HalfedgeId h) const { return graph_.drains(h) && graph_.channel[h.index()] == 0; }
-
-  void finish_from(TriangleId start, const Progress& progress) {
+  void finish_from(TriangleId start, PieceStore::Writer& writer, const Progress& progress) {
     ready_.assign(1, start);
+    writer_ = &writer;
     for (std::size_t steps = 1; !ready_.empty(); ++steps) {
       if (steps % (1U << 16U) == 0) progress.check();
       const TriangleId t = ready_.back();
@@ -112,112 +114,176 @@ class PieceFinder {
       finish(t);
     }
   }
+  /// Triangles of other parts that wait for one side less.
+  std::vector<TriangleId> take_outside() { return std::exchange(outside_, {}); }
 
+ private:
   void finish(TriangleId t) {
-    waits_for_[t.index()] = kDone;
-    const Strip strip = graph_.strip_of(t);
+    const Strip strip = graph_->strip_of(t);
     const HalfedgeId after = Tin::next(strip.split), before = Tin::previous(strip.split);
     if (strip.corner_is_low) {
+      writer_->start();
       append(before, 0, 1, 0, strip.at);
       append(after, 0, 1, strip.at, 1);
       keep(strip.split);
-    } else {
-      const double top = 1 - strip.at;  // along the twin of the Out side
-      append(strip.split, 0, top, 0, 1);
-      keep(after);
-      append(strip.split, top, 1, 0, 1);
-      keep(before);
+      return;
     }
+    const double top = 1 - strip.at;  // along the twin of the Out side
+    const FlowTarget target = graph_->beyond(strip.split);
+    if (!target.many()) {
+      set(after, target);
+      set(before, target);
+      return;
+    }
+    writer_->start();
+    append(strip.split, 0, top, 0, 1);
+    keep(after);
+    writer_->start();
+    append(strip.split, top, 1, 0, 1);
+    keep(before);
+    if (ends_at(target, top)) graph_->shape[t.index()].line_to_top = 1;
+  }
+
+  [[nodiscard]] bool ends_at(FlowTarget target, double share) const {
+    const FlowPiece* piece = graph_->pieces.at(target.index());
+    while (piece->end < share && piece->last == 0) ++piece;
+    return piece->end == share && piece->last == 0;
   }
 
   // Appends what lies in [from, to] of the pieces of x, stretched to [begin, end] of the side that is built.
   void append(HalfedgeId x, double from, double to, double begin, double end) {
     if (!(from < to) || !(begin < end)) return;
-    const FlowTarget target = graph_.beyond(x);
-    if (target.many == 0) return add({.end = end, .node = target.index});
+    const FlowTarget target = graph_->beyond(x);
+    std::uint32_t i = target.index();
+    if (!target.many()) return writer_->add(end, i, FlowPiece::kFromCorner);
+    const FlowPiece* piece = graph_->pieces.at(i);
+    for (; piece->end <= from && piece->last == 0; ++piece) ++i;
     const double stretch = (end - begin) / (to - from);
-    for (std::uint32_t i = target.index;; ++i) {
-      const FlowPiece& piece = graph_.pieces[i];
-      if (piece.end <= from && piece.last == 0) continue;
-      if (piece.last != 0 || piece.end >= to) return add({.end = end, .node = piece.node});
-      const double stop = std::clamp(begin + (piece.end - from) * stretch, begin, end);
-      add({.end = stop, .node = piece.node, .from = i});
+    for (; piece->last == 0 && piece->end < to; ++i, ++piece) {
+      writer_->add(std::clamp(begin + (piece->end - from) * stretch, begin, end), piece->node, i);
     }
+    writer_->add(end, piece->node, FlowPiece::kFromCorner);
   }
 
-  void add(const FlowPiece& piece) {
-    if (!fresh_.empty() && fresh_.back().node == piece.node) {
-      fresh_.back() = piece;
-    } else {
-      fresh_.push_back(piece);
-    }
-  }
-
-  /// Gives what was appended to the In side h, and counts down the triangle that hands water over it.
   void keep(HalfedgeId h) {
-    THALWEG_ASSERT(!fresh_.empty());
-    if (fresh_.size() == 1) {
-      graph_.target[h.index()] = {.index = fresh_.front().node};
-    } else {
-      for (std::size_t i = 0; i + 1 < fresh_.size(); ++i) fresh_[i].last = 0;
-      graph_.target[h.index()] = {.index = static_cast<std::uint32_t>(graph_.pieces.size()), .many = 1};
-      graph_.pieces.insert(graph_.pieces.end(), fresh_.begin(), fresh_.end());
-      if (graph_.pieces.size() > kMostPieces) {
-        throw Error(ErrorCode::SizeLimit, "the flow parts the TIN's edges into more than 2147483647 pieces; "
-                                          "split the area");
-      }
-    }
-    fresh_.clear();
-    const HalfedgeId twin = mesh_.twin(h);
-    if (!twin.valid() || !passes_on(twin)) return;
+    set(h, writer_->is_one() ? FlowTarget::node(writer_->node()) : FlowTarget::pieces(writer_->keep()));
+  }
+
+  /// Also counts down the triangle that hands water over the In side h.
+  void set(HalfedgeId h, FlowTarget target) {
+    graph_->target[h.index()] = target;
+    const HalfedgeId twin = graph_->mesh.twin(h);
+    if (!twin.valid() || !passes_on(*graph_, twin)) return;
     const TriangleId above = Tin::triangle_of(twin);
-    if (--waits_for_[above.index()] == 0) ready_.push_back(above);
-  }
-
-  /// Makes a channel of an edge of a cycle to which one comes from `t`, over sides that are awaited; returns
-  /// the triangle that waited for it. If that still waits, it is for another cycle.
-  TriangleId break_cycle(TriangleId t) {
-    std::vector<std::uint8_t> passed(mesh_.triangle_count(), 0);
-    for (;;) {
-      passed[t.index()] = 1;
-      HalfedgeId over;
-      for (std::size_t side = 0; side < 3; ++side) {
-        const HalfedgeId h = Tin::halfedge(t, side);
-        if (passes_on(h) && waits_for_[Tin::triangle_of(mesh_.twin(h)).index()] != kDone) over = h;
-      }
-      const TriangleId next = Tin::triangle_of(mesh_.twin(over));
-      if (passed[next.index()] == 0) {
-        t = next;
-        continue;
-      }
-      make_channel(over);
-      --waits_for_[t.index()];
-      return t;
+    if (above.index() / kPart != part_) {
+      outside_.push_back(above);
+    } else if (--(*waiting_)[above.index()] == 0) {
+      ready_.push_back(above);
     }
   }
 
-  void make_channel(HalfedgeId h) {
-    const HalfedgeId twin = mesh_.twin(h);
-    graph_.channel[h.index()] = graph_.channel[twin.index()] = 1;
-    graph_.target[h.index()] = {
-        .index = static_cast<std::uint32_t>(graph_.channels.size() + mesh_.vertex_count())};
-    graph_.channels.push_back({std::min(h, twin), graph_.low_end(h)});
-    ++graph_.broken_cycles;
+  FlowGraph* graph_;
+  Waiting* waiting_;
+  std::size_t part_;
+  PieceStore::Writer* writer_ = nullptr;
+  std::vector<TriangleId> ready_, outside_;
+};
+
+/// Parts side by side; then what waited for other parts, and so on.
+class Parts {
+ public:
+  Parts(FlowGraph& graph, Waiting& waiting)
+      : waiting_(waiting), writers_([&graph] { return PieceStore::Writer(graph.pieces); }) {
+    for (std::size_t part = 0; part * kPart < waiting.size(); ++part) {
+      finders_.emplace_back(graph, waiting, part);
+    }
+    ready_.resize(finders_.size());
   }
 
-  static constexpr std::size_t kMostPieces = (std::size_t{1} << 31U) - 1;
+  void start(const Progress& progress) {
+    for_each_block(finders_.size(), 1, progress,
+                   [&](std::size_t part, std::size_t /*end*/) {
+                     finders_[part].start(writers_.local(), progress);
+                   });
+    go_on(progress);
+  }
+  void finish_from(TriangleId t, const Progress& progress) {
+    finders_[t.index() / kPart].finish_from(t, writers_.local(), progress);
+    go_on(progress);
+  }
 
-  FlowGraph& graph_;
-  const FlowMesh& mesh_;
-  LargeVector<std::uint8_t> waits_for_;
-  std::vector<TriangleId> ready_;
-  std::vector<FlowPiece> fresh_;
+ private:
+  void go_on(const Progress& progress) {
+    while (count_outside()) {
+      for_each_block(finders_.size(), 1, progress, [&](std::size_t part, std::size_t /*end*/) {
+        for (const TriangleId t : std::exchange(ready_[part], {})) {
+          finders_[part].finish_from(t, writers_.local(), progress);
+        }
+      });
+    }
+  }
+
+  /// Whether some are ready now.
+  bool count_outside() {
+    bool some = false;
+    for (PieceFinder& finder : finders_) {
+      for (const TriangleId t : finder.take_outside()) {
+        if (--waiting_[t.index()] != 0) continue;
+        ready_[t.index() / kPart].push_back(t);
+        some = true;
+      }
+    }
+    return some;
+  }
+
+  Waiting& waiting_;
+  tbb::enumerable_thread_specific<PieceStore::Writer> writers_;
+  std::vector<PieceFinder> finders_;
+  std::vector<std::vector<TriangleId>> ready_;  // by part
 };
+
+bool waits(const Waiting& waiting, TriangleId t) {
+  return waiting[t.index()] != 0 && waiting[t.index()] < kLevel;
+}
+
+/// Makes a channel of an edge of a cycle to which one comes from `t`, over sides that are awaited; returns the
+/// triangle that waited for it, perhaps for one in another cycle too.
+TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
+  std::vector<std::uint8_t> passed(waiting.size(), 0);
+  for (;;) {
+    passed[t.index()] = 1;
+    HalfedgeId over;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (passes_on(graph, h) && waits(waiting, Tin::triangle_of(graph.mesh.twin(h)))) over = h;
+    }
+    const HalfedgeId twin = graph.mesh.twin(over);
+    const TriangleId next = Tin::triangle_of(twin);
+    if (passed[next.index()] == 0) {
+      t = next;
+      continue;
+    }
+    graph.channel[over.index()] = graph.channel[twin.index()] = 1;
+    graph.target[over.index()] = FlowTarget::node(static_cast<FlowNode>(graph.node_count()));
+    graph.channels.push_back({std::min(over, twin), graph.low_end(over), false});
+    ++graph.broken_cycles;
+    --waiting[t.index()];
+    return t;
+  }
+}
 
 }  // namespace
 
-void find_pieces(FlowGraph& graph, Progress& progress) {
-  PieceFinder(graph).run(progress);
+void find_pieces(FlowGraph& graph, const Progress& progress) {
+  Waiting waiting = count_awaited(graph, progress);
+  Parts parts(graph, waiting);
+  parts.start(progress);
+  for (std::size_t t = 0; t < waiting.size(); ++t) {
+    while (waits(waiting, TriangleId{t})) {
+      const TriangleId freed = break_cycle(graph, waiting, TriangleId{t});
+      if (waiting[freed.index()] == 0) parts.finish_from(freed, progress);
+    }
+  }
 }
 
 }  // namespace thalweg

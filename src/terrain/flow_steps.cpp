@@ -37,7 +37,7 @@ class StepFinder {
       return;
     }
     next = node_of(v, step);
-    if (is_below(v, next)) return;
+    if (step.kind == Kind::Edge || is_below(v, next)) return;
     step = to_lowest_neighbour(v);
     next = node_of(v, step);
   }
@@ -61,11 +61,10 @@ class StepFinder {
       end = graph_.vertex_of(node);
     } else {
       const Channel& channel = graph_.channel_of(node);
-      if (mesh_.on_rim(channel.edge)) return true;  // leaves
+      if (channel.on_rim) return true;  // leaves
       end = channel.low;
     }
-    if (mesh_.height(end) != mesh_.height(v)) return mesh_.height(end) < mesh_.height(v);
-    return graph_.flats.rank[end.index()] < graph_.flats.rank[v.index()];
+    return mesh_.height(end) < mesh_.height(v);
   }
 
   [[nodiscard]] VertexStep to_lowest_neighbour(VertexId v) const {
@@ -189,7 +188,7 @@ void follow_chains(FlowGraph& graph) {
       }
       const Channel& channel = graph.channel_of(next);
       v = channel.low;
-      if (!graph.mesh.on_rim(channel.edge)) continue;
+      if (!channel.on_rim) continue;
       end = graph.rim_sink[v.index()];
       break;
     }

@@ -59,7 +59,7 @@ class Accumulator {
   [[nodiscard]] FlowNode below(FlowNode node) const {
     if (graph_.is_vertex(node)) return below(graph_.vertex_of(node));
     const Channel& channel = graph_.channel_of(node);
-    return graph_.mesh.on_rim(channel.edge) ? kNoNode : graph_.node_of(channel.low);
+    return channel.on_rim ? kNoNode : graph_.node_of(channel.low);
   }
 
   [[nodiscard]] FlowNode below(VertexId v) const {
@@ -75,7 +75,7 @@ class Accumulator {
   void settle(FlowNode node) {
     if (how_often_[node] > 1) ++highest_[node];
     if (highest_[node] != 0 || !(area_[node] >= min_area_ && area_[node] > 0) || graph_.is_vertex(node)) return;
-    if (!graph_.mesh.on_rim(graph_.channel_of(node).edge)) highest_[node] = 1;
+    if (!graph_.channel_of(node).on_rim) highest_[node] = 1;
   }
 
   void pass_on(FlowNode from, FlowNode to) {
@@ -141,8 +141,8 @@ std::vector<Reach> find_network(const SurfaceFlow& flow, const Spilling& spillin
       if (kind == VertexStep::Kind::Edge && !graph.is_vertex(next)) continue;  // the channel starts here
       reach.points = flow.leg_from(mesh.given(v)).points;
     } else {
-      const auto& [edge, low] = graph.channel_of(node);
-      if (mesh.on_rim(edge)) continue;
+      const auto& [edge, low, on_rim] = graph.channel_of(node);
+      if (on_rim) continue;
       const VertexId high = low == mesh.origin(edge) ? mesh.target(edge) : mesh.origin(edge);
       reach.points = {vertex_point(high), vertex_point(low)};
       reach.channel = given_edge(graph, edge);

@@ -59,7 +59,6 @@ struct Pass {
   std::uint32_t basin = kOutside;  ///< the lower number
   std::uint32_t other = kOutside;
   VertexId high, low;  ///< its ends
-  double height = 0;   ///< of the higher one
 };
 
 class Tabulator {
@@ -115,7 +114,6 @@ class Tabulator {
     return p != q ? p < q : mesh_.point(v) < mesh_.point(w);
   }
   [[nodiscard]] bool is_before(const Pass& a, const Pass& b) const {
-    if (a.height != b.height) return a.height < b.height;
     return a.high != b.high ? is_before(a.high, b.high) : is_before(a.low, b.low);
   }
 
@@ -126,8 +124,9 @@ class Tabulator {
   }
 
   // Edges on the rim are outside.
-  [[nodiscard]] std::vector<Pass> list_passes(const Progress& progress) const {
-    std::vector<Pass> passes;
+  [[nodiscard]] LargeVector<Pass> list_passes(const Progress& progress) const {
+    LargeVector<Pass> passes;
+    passes.reserve(mesh_.vertex_count());
     const auto make = [&](std::size_t begin, std::size_t end, std::vector<Pass>& found) {
       found.clear();
       for (std::size_t t = begin; t < end; ++t) {
@@ -139,7 +138,7 @@ class Tabulator {
           if (basin[i] == basin[j] || c[j] < c[i]) continue;  // of the two triangles beside an edge, one
           const auto [least, most] = std::minmax(basin[i], basin[j]);
           const auto [low, high] = is_before(c[i], c[j]) ? std::pair(c[i], c[j]) : std::pair(c[j], c[i]);
-          found.push_back({least, most, high, low, mesh_.height(high)});
+          found.push_back({least, most, high, low});
         }
       }
     };
@@ -153,7 +152,7 @@ class Tabulator {
 
   /// Of each two basins that meet; from the lowest up.
   [[nodiscard]] std::vector<Pass> lowest_passes(const Progress& progress) const {
-    const std::vector<Pass> passes = list_passes(progress);
+    const LargeVector<Pass> passes = list_passes(progress);
     std::vector<std::uint32_t> basins(passes.size());
     std::transform(passes.begin(), passes.end(), basins.begin(), [](const Pass& p) { return p.basin; });
     Buckets by_basin = sort_into_buckets(basins, table_.pits.size() + 1);
@@ -191,7 +190,7 @@ class Tabulator {
       deepest[sets.find(here)] = first ? x : y;
       Pit& pit = table_.pits[(first ? y : x) - 1];
       const std::uint32_t across = first ? here : there;  // on the other side than the pit that spills
-      pit.spill_height = pass.height;
+      pit.spill_height = mesh_.height(pass.high);
       pit.spill_vertex = mesh_.given(pass.high);
       pit.overflow = mesh_.given(first ? pass.high : pass.low);
       if (across != kOutside) pit.spills_into = across - 1;
@@ -212,15 +211,15 @@ class Tabulator {
     reached_.assign(mesh_.vertex_count(), kNoPit);
     Buckets together = sort_into_buckets(last_met_, table_.pits.size());
     for_each_block(together.size(), kPits, progress, {0.5, 1}, [&](std::size_t begin, std::size_t end) {
-      std::vector<HalfedgeId> lake, fan;
+      std::vector<HalfedgeId> lake;
       for (std::size_t last = begin; last < end; ++last) {
-        for (const std::uint32_t pit : together.items(last)) measure(pit, lake, fan);
+        for (const std::uint32_t pit : together.items(last)) measure(pit, lake);
       }
     });
   }
 
-  /// `lake`, `fan`: room for what is under water, each vertex by a halfedge from it, and around a vertex.
-  void measure(std::uint32_t mark, std::vector<HalfedgeId>& lake, std::vector<HalfedgeId>& fan) {
+  /// `lake`: room for what is under water, each vertex by a halfedge from it. None is on the rim.
+  void measure(std::uint32_t mark, std::vector<HalfedgeId>& lake) {
     Pit& pit = table_.pits[mark];
     const auto submerged = [&](VertexId v) { return mesh_.height(v) < pit.spill_height; };
     lake.assign(1, mesh_.some_out(bottom_[mark]));
@@ -233,13 +232,12 @@ class Tabulator {
     Water water;
     for (std::size_t next = 0; next < lake.size(); ++next) {
       const VertexId v = mesh_.origin(lake[next]);
-      list_fan(lake[next], fan);
-      for (const HalfedgeId h : fan) {
+      mesh_.for_each_out_around(lake[next], [&](HalfedgeId h) {
         const VertexId b = mesh_.target(h), c = mesh_.apex(h);
         const bool wet_b = submerged(b), wet_c = submerged(c);
         if (wet_b) reach(b, Tin::next(h));
         if (wet_c) reach(c, Tin::previous(h));
-        if ((wet_b && mesh_.given(b) < mesh_.given(v)) || (wet_c && mesh_.given(c) < mesh_.given(v))) continue;
+        if ((wet_b && b < v) || (wet_c && c < v)) return;
         const Point2 o = mesh_.point(v), p = mesh_.point(b), q = mesh_.point(c);
         const double area = ((p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x)) / 2;
         const Water part = water_in({pit.spill_height - mesh_.height(v), pit.spill_height - mesh_.height(b),
@@ -247,25 +245,12 @@ class Tabulator {
                                     area);
         water.area += part.area;
         water.volume += part.volume;
-      }
+      });
     }
     const double square = scale_.horizontal_metres_per_unit * scale_.horizontal_metres_per_unit;
     pit.depth_m = (pit.spill_height - pit.height) * scale_.vertical_metres_per_unit;
     pit.area_m2 = water.area * square;
     pit.volume_m3 = water.volume * square * scale_.vertical_metres_per_unit;
-  }
-
-  /// What is under water is not on the rim: all around it are triangles. Sorted, so that sums do not depend on
-  /// where one comes from.
-  void list_fan(HalfedgeId start, std::vector<HalfedgeId>& fan) const {
-    fan.clear();
-    HalfedgeId h = start;
-    do {
-      fan.push_back(h);
-      h = mesh_.twin(Tin::previous(h));
-    } while (h != start);
-    std::sort(fan.begin(), fan.end(),
-              [&](HalfedgeId g, HalfedgeId k) { return mesh_.given(g) < mesh_.given(k); });
   }
 
   void count(const Pit& pit) {
