@@ -8,8 +8,8 @@ namespace thalweg::detail {
 namespace {
 
 constexpr double kReach = 1.1548;  // above 1 / sin 60
-constexpr double kAngleSlack = 1e-11;
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kTurnSlack = 1e-9;
 // What the largest angle of a triangle has at least, less what rounding may take off it.
 constexpr double kLeastAngle = kPi / 3 - 1e-6;
 // Near the hull only vertices far along a narrow gap tell that it is hopeless, so many count; the limit keeps
@@ -20,48 +20,57 @@ constexpr int kHalvings = 5;
 
 }  // namespace
 
-bool FanSearch::certain(const Range& range, const Seen& seen) const {
-  if (pruning_ == FanPruning::Visible) {
-    return narrow_ || (seen.turn > range.left_turn - kPi && seen.turn < range.right_turn + kPi);
+// Those that count for triangles with the range (2a, 2b).
+void FanSearch::list_certain(const Range& range) {
+  active_.clear();
+  if (pruning_ == FanPruning::NearEnds) {
+    list_certain_beside(range, Role::Right);
+    list_certain_beside(range, Role::Left);
+    return;
   }
-  const double from_right = turn_between(range.right, seen.angle);
-  const double to_left = turn_between(seen.angle, range.left);
-  const double breadth = turn_between(range.right, range.left);
-  if (from_right <= breadth)
-    return kReach * seen.distance <= range.horizon && clear(range.right, breadth, seen);
-  if (from_right < 2) {
-    const double sector = range.role == Role::Right ? turn_between(range.right, range.sector_end) : 0;
-    if (range.role == Role::Right && from_right <= sector) return true;
-    return kReach * seen.distance <= range.horizon &&
-           clear(normal(range.right + sector), from_right - sector, seen);
+  for (std::uint32_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
+    const double turn = seen_[i].turn;
+    if (narrow_ || (turn > range.left_turn - kPi && turn < range.right_turn + kPi)) active_.push_back(i);
   }
-  if (to_left < 2) {
-    const double sector = range.role == Role::Left ? turn_between(range.sector_end, range.left) : 0;
-    if (range.role == Role::Left && to_left <= sector) return true;
-    return kReach * seen.distance <= range.horizon && clear(seen.angle, to_left - sector, seen);
-  }
-  return false;
 }
 
-// Whether no stop that may hide a vertex seen lies from one direction on as far as `turn`.
-bool FanSearch::clear(double from, double turn, const Seen& seen) const {
-  const double reach = kReach * seen.distance;
-  if (reach < nearest_stop_) return true;
-  from = normal(from - kAngleSlack);
-  const double breadth = turn + 2 * kAngleSlack;
-  const auto first = static_cast<std::size_t>(from * kSectorsAUnit) % kSectors;
-  const auto last = static_cast<std::size_t>(normal(from + breadth) * kSectorsAUnit) % kSectors;
-  const bool unclear = sectors_[first] <= reach || sectors_[last] <= reach;
-  if (first != last) {
-    for (std::size_t i = (first + 1) % kSectors; i != last; i = (i + 1) % kSectors) {
-      if (sectors_[i] <= reach) return false;
+// Goes from the range, which is to the right or the left of what follows, round to what lies farther, with the
+// nearest stop so far.
+void FanSearch::list_certain_beside(const Range& range, Role of) {
+  const bool leftwards = of == Role::Right;
+  const double free = range.role == of ? kLeastAngle : -1;
+  const bool point = range.right == range.left;
+  const std::uint32_t start = leftwards ? range.left : range.right;
+  const double least_reach = kReach * scale_;
+  double nearest = FanTypes::kNoStop;
+  if (point) nearest = std::min(seen_[start].stop, seen_[start].stop_behind);
+  if (range.role == of) nearest = FanTypes::kNoStop;
+  std::uint32_t i = start;
+  bool first = !point;
+  for (std::size_t steps = 0; steps < kMostCounted; ++steps) {
+    double stop_between = FanTypes::kNoStop;
+    if (!first) {
+      if (!closed_ && (leftwards ? seen_[i].next : i) == 0) return;
+      if (leftwards) stop_between = seen_[i].stop_after;
+      i = leftwards ? seen_[i].next : seen_[i].previous;
+      if (!leftwards) stop_between = seen_[i].stop_after;
+      if (i == start) return;
     }
+    first = false;
+    const Seen& seen = seen_[i];
+    double turn = leftwards ? seen.turn - range.right_turn : range.left_turn - seen.turn;
+    if (turn < -kTurnSlack) turn += 2 * kPi;
+    if (turn >= kPi - kTurnSlack) return;
+    if (turn <= free) {
+      active_.push_back(i);
+      continue;
+    }
+    nearest = std::min({nearest, stop_between, seen.stop_behind});
+    if (nearest <= least_reach) return;
+    const double reach = kReach * seen.distance;
+    if (reach < nearest && reach <= range.horizon) active_.push_back(i);
+    nearest = std::min(nearest, seen.stop);
   }
-  if (!unclear) return true;
-  return std::none_of(stops_.begin(), stops_.end(), [&](const Stop& stop) {
-    return stop.distance <= reach && (!stop.vertex.valid() || stop.vertex != seen.vertex) &&
-           turn_between(from, stop.angle) <= breadth;
-  });
 }
 
 FanSearch::Probe FanSearch::probe(const Range& range, Direction c) {
@@ -71,8 +80,8 @@ FanSearch::Probe FanSearch::probe(const Range& range, Direction c) {
 bool FanSearch::deep_at(const Range& range, Direction c) const {
   const Probe at = probe(range, c);
   std::size_t depth = 0;
-  for (std::size_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
-    if (at.covered_by(seen_[i]) && certain(range, seen_[i]) && ++depth > k_) return true;
+  for (const std::uint32_t i : active_) {
+    if (at.covered_by(seen_[i]) && ++depth > k_) return true;
   }
   return false;
 }
@@ -98,18 +107,19 @@ bool FanSearch::deep_between(const Range& range, const Probe& from, const Probe&
          (left_depth > k_ || deep_between(range, middle, to, halvings - 1, open));
 }
 
-// The vertices that certainly count and cover any of the range's chief directions; false if some of these
-// are covered by k or fewer.
-bool FanSearch::activate(const Range& range, const std::array<Probe, 4>& chief, Direction& open) {
-  active_.clear();
+// Keeps those active that cover any of the range's chief directions; false if some of these are covered by k
+// or fewer.
+bool FanSearch::keep_covering(const std::array<Probe, 4>& chief, Direction& open) {
   std::array<std::size_t, 4> depth{};
-  for (std::size_t i = 0; i < std::min(kMostCounted, seen_.size()); ++i) {
+  std::size_t kept = 0;
+  for (const std::uint32_t i : active_) {
     std::array<bool, 4> covered{};
     for (std::size_t j = 0; j < 4; ++j) covered[j] = chief[j].covered_by(seen_[i]);
-    if (!(covered[0] || covered[1] || covered[2] || covered[3]) || !certain(range, seen_[i])) continue;
+    if (!(covered[0] || covered[1] || covered[2] || covered[3])) continue;
     for (std::size_t j = 0; j < 4; ++j) depth[j] += covered[j] ? 1 : 0;
-    active_.push_back(static_cast<std::uint32_t>(i));
+    active_[kept++] = i;
   }
+  active_.resize(kept);
   for (std::size_t j = 0; j < 4; ++j) {
     if (depth[j] > k_) continue;
     open = chief[j].c;
@@ -130,15 +140,16 @@ bool FanSearch::hopeless_as(Role role, Range range, Direction& open) {
   Direction from{range.to_right.y, -range.to_right.x};
   Direction to{-range.to_left.y, range.to_left.x};
   if (role == Role::Right) {
-    if (beside_blocks_ && breadth_ - range.right_turn < kLeastAngle) return true;
-    const Direction end = turned(range.to_right, kLeastAngle);
-    range.sector_end = diamond_angle(end.x, end.y);
+    if (!closed_ && breadth_ - range.right_turn < kLeastAngle) return true;
     from = turned(range.to_right, kLeastAngle - kPi / 2);
   } else if (role == Role::Left) {
-    if (beside_blocks_ && range.left_turn < kLeastAngle) return true;
-    const Direction end = turned(range.to_left, -kLeastAngle);
-    range.sector_end = diamond_angle(end.x, end.y);
+    if (!closed_ && range.left_turn < kLeastAngle) return true;
     to = turned(range.to_left, kPi / 2 - kLeastAngle);
+  }
+  list_certain(range);
+  if (active_.size() <= k_) {
+    open = {};
+    return false;
   }
   if (open != Direction{} && (dot(open, range.to_right) > 0 || dot(open, range.to_left) > 0) &&
       !deep_at(range, open)) {
@@ -146,7 +157,7 @@ bool FanSearch::hopeless_as(Role role, Range range, Direction& open) {
   }
   const Probe first = probe(range, from), last = probe(range, to);
   const Probe right = probe(range, range.to_right), left = probe(range, range.to_left);
-  if (!activate(range, {first, right, left, last}, open)) return false;
+  if (!keep_covering({first, right, left, last}, open)) return false;
   return deep_between(range, first, right, kHalvings, open) &&
          (range.right_turn == range.left_turn || deep_between(range, right, left, kHalvings, open)) &&
          deep_between(range, left, last, kHalvings, open);

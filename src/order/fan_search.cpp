@@ -111,10 +111,6 @@ void FanSearch::enter_fan(HalfedgeId first) {
   gaps_.clear();
   seen_.clear();
   behind_.clear();
-  stops_.clear();
-  if (pruning_ == FanPruning::NearEnds) sectors_.fill(kUnbounded);
-  nearest_stop_ = kUnbounded;
-  beside_blocks_ = false;
   const Tin& tin = ground_->tin();
   const auto square = [&](VertexId v) {
     const Point2 p = ground_->point(v);
@@ -135,13 +131,12 @@ void FanSearch::enter_fan(HalfedgeId first) {
     if (h == first && closed_) break;
     const auto before = static_cast<std::uint32_t>(seen_.size() - 1);
     const VertexId v = tin.origin(last);
-    seen_[before].next = see(v, std::max(seen_[before].turn, turn_of(before, ground_->point(v))));
-    if (h.valid() && !starts_fan(h)) continue;
-    beside_blocks_ = ground_->blocks(first) || ground_->blocks(last);
-    if (pruning_ == FanPruning::NearEnds && ground_->blocks(last)) stop_at(v, 0);
-    break;
+    const std::uint32_t fresh = see(v, std::max(seen_[before].turn, turn_of(before, ground_->point(v))));
+    seen_[before].next = fresh;
+    seen_[fresh].previous = before;
+    if (!h.valid() || starts_fan(h)) break;
   }
-  if (pruning_ == FanPruning::NearEnds && ground_->blocks(first)) stop_at(tin.target(first), 0);
+  seen_.front().previous = static_cast<std::uint32_t>(seen_.size() - 1);
 }
 
 void FanSearch::open_gaps(HalfedgeId first) {
@@ -175,10 +170,7 @@ std::uint32_t FanSearch::see(VertexId v, double turn) {
   seen.turn = turn;
   seen.inverse = {seen.x / square * scale_, seen.y / square * scale_};
   seen.slack = kCoverSlack / seen.distance * scale_;
-  if (pruning_ == FanPruning::NearEnds) {
-    seen.angle = diamond_angle(seen.x, seen.y);
-    if (ground_->blocks(v)) stop_at(v, seen.distance);
-  }
+  if (ground_->blocks(v)) seen.stop = seen.distance;
   seen_.push_back(seen);
   return static_cast<std::uint32_t>(seen_.size() - 1);
 }
@@ -225,25 +217,17 @@ bool FanSearch::hopeless_at(const Seen& seen) {
   const Direction at{seen.x / seen.distance * (scale_ / seen.distance) * kWider,
                      seen.y / seen.distance * (scale_ / seen.distance) * kWider};
   std::array<Direction, 2> open;
-  return hopeless({seen.turn, seen.turn, seen.angle, seen.angle, to, to, at, at, kUnbounded}, open);
-}
-
-void FanSearch::stop_at(VertexId v, double distance) {
-  const Point2 p = ground_->point(v);
-  add_stop({v, diamond_angle(p.x - at_.x, p.y - at_.y), distance});
-}
-
-void FanSearch::add_stop(const Stop& stop) {
-  stops_.push_back(stop);
-  nearest_stop_ = std::min(nearest_stop_, stop.distance);
-  double& sector = sectors_[static_cast<std::size_t>(stop.angle * kSectorsAUnit) % kSectors];
-  sector = std::min(sector, stop.distance);
-}
-
-void FanSearch::give_up(const Gap& gap) {
-  if (pruning_ != FanPruning::NearEnds) return;
-  const double from = seen_[gap.right].angle;
-  add_stop({{}, normal(from + turn_between(from, seen_[gap.left].angle) / 2), gap.distance});
+  const std::uint32_t i = seen_[seen.next].previous;
+  return hopeless({.right = i,
+                   .left = i,
+                   .right_turn = seen.turn,
+                   .left_turn = seen.turn,
+                   .to_right = to,
+                   .to_left = to,
+                   .right_at = at,
+                   .left_at = at,
+                   .horizon = kUnbounded},
+                  open);
 }
 
 void FanSearch::push(HalfedgeId edge, Gap gap) {
@@ -307,14 +291,24 @@ bool FanSearch::gives_up(Gap& gap) {
   const double size = kWider * scale_ / (gap.distance * std::sqrt((1 + std::min(cosine, 1.0)) / 2));
   const Direction to_right = scaled({right.x, right.y}, 1 / right.distance);
   const Direction to_left = scaled({left.x, left.y}, 1 / left.distance);
-  return hopeless({right.turn, left.turn, right.angle, left.angle, to_right, to_left, scaled(to_right, size),
-                   scaled(to_left, size), gap.distance},
+  return hopeless({.right = gap.right,
+                   .left = gap.left,
+                   .right_turn = right.turn,
+                   .left_turn = left.turn,
+                   .to_right = to_right,
+                   .to_left = to_left,
+                   .right_at = scaled(to_right, size),
+                   .left_at = scaled(to_left, size),
+                   .horizon = gap.distance},
                   gap.open);
 }
 
 void FanSearch::expand(const Gap& from) {
   Gap gap = from;
-  if (gives_up(gap)) return give_up(gap);
+  if (gives_up(gap)) {
+    seen_[gap.right].stop_after = gap.distance;
+    return;
+  }
   const HalfedgeId entry = ground_->tin().twin(gap.edge);
   const VertexId apex = ground_->tin().apex(entry);
   const Point2 p = ground_->point(apex);
@@ -326,7 +320,8 @@ void FanSearch::expand(const Gap& from) {
     const std::uint32_t middle = see(apex, low < high ? std::min(high, turn) : turn);
     if (counting_) count(middle);
     seen_[middle].next = gap.left;
-    seen_[gap.right].next = middle;
+    seen_[middle].previous = gap.right;
+    seen_[gap.right].next = seen_[gap.left].previous = middle;
     Gap right = gap, left = gap;
     right.left = left.right = middle;
     push(Tin::next(entry), right);
@@ -340,8 +335,9 @@ void FanSearch::expand(const Gap& from) {
 // Comes up to twice, from both sides.
 void FanSearch::note_behind(std::uint32_t seen, VertexId v) {
   const Point2 p = ground_->point(v);
-  if (pruning_ == FanPruning::NearEnds && ground_->blocks(v)) {
-    stop_at(v, length({p.x - at_.x, p.y - at_.y}));
+  if (ground_->blocks(v)) {
+    double& stop = seen_[seen].stop_behind;
+    stop = std::min(stop, length({p.x - at_.x, p.y - at_.y}));
   }
   const bool known =
       std::any_of(behind_.begin(), behind_.end(), [&](const Partner& one) { return one.vertex == v; });

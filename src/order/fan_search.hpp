@@ -49,7 +49,6 @@ class FanSearch {
 
  private:
   using Seen = FanTypes::Seen;
-  using Stop = FanTypes::Stop;
   using Role = FanTypes::Role;
   using Range = FanTypes::Range;
   using Probe = FanTypes::Probe;
@@ -79,22 +78,19 @@ class FanSearch {
   [[nodiscard]] double turn_of(std::uint32_t from, Point2 p) const;
   [[nodiscard]] Point2 at(std::uint32_t seen) const { return ground_->point(seen_[seen].vertex); }
 
-  void add_stop(const Stop& stop);
-  void stop_at(VertexId v, double distance);
   void note_behind(std::uint32_t seen, VertexId v);
-  void give_up(const Gap& gap);
   [[nodiscard]] double distance_to(const Gap& gap) const;
-  [[nodiscard]] bool certain(const Range& range, const Seen& seen) const;
+  void list_certain(const Range& range);
+  void list_certain_beside(const Range& range, Role side);
   static Probe probe(const Range& range, Direction c);
   [[nodiscard]] bool deep_at(const Range& range, Direction c) const;
-  bool activate(const Range& range, const std::array<Probe, 4>& chief, Direction& open);
+  bool keep_covering(const std::array<Probe, 4>& chief, Direction& open);
   [[nodiscard]] bool deep_between(const Range& range, const Probe& from, const Probe& to, int halvings,
                                   Direction& open) const;
   /// Whether no triangle of order <= k has u and a position in the range as corners; with NearEnds, u as that
   /// of the largest angle. Tells directions that few cover where it says no; `open` may bring guesses.
   [[nodiscard]] bool hopeless(const Range& range, std::array<Direction, 2>& open);
   [[nodiscard]] bool hopeless_as(Role role, Range range, Direction& open);
-  [[nodiscard]] bool clear(double from, double turn, const Seen& seen) const;
 
   const Ground* ground_ = nullptr;
   VertexId u_;
@@ -108,21 +104,15 @@ class FanSearch {
   double scale_ = 1;            ///< the distance of the nearest neighbour in the fan
   double far_ = 0;              ///< from where on disc_depth.cpp may be too coarse
   Direction first_;             ///< unit vector of the fan's first direction
-  bool beside_blocks_ = false;  ///< a side of the fan blocks
   bool counting_ = false;       ///< whether depth_ is kept
   bool tabled_ = false;         ///< whether it decides
   DiscDepth depth_;
   StampedMap counted_;     ///< vertices in depth_
   std::vector<Gap> gaps_;  ///< a heap by distance; with `tabled_` all so far
   std::vector<Seen> seen_;
-  std::vector<Stop> stops_;
   /// Relative: far above what rounding does, where positions inverted are compared.
   static constexpr double kCoverSlack = 1e-10;
-  static constexpr std::size_t kSectorsAUnit = 16;
-  static constexpr std::size_t kSectors = 4 * kSectorsAUnit;
-  std::array<double, kSectors> sectors_{};  ///< of diamond angles: the distance of the nearest stop in it
-  double nearest_stop_ = 0;
-  std::vector<std::uint32_t> active_;  ///< of seen_
+  std::vector<std::uint32_t> active_;  ///< of seen_: those that count for the range at hand
   std::vector<Partner> partners_;
   std::vector<Partner> behind_;
 };

@@ -7,42 +7,39 @@
 #include <thalweg/base/id.hpp>
 
 #include <cstdint>
+#include <limits>
 
 namespace thalweg::detail {
 
 struct FanTypes {
-  /// A vertex seen, relative to u.
+  static constexpr double kNoStop = std::numeric_limits<double>::infinity();
+  /// A vertex seen, relative to u. With NearEnds, what ends certainty about vertices farther round than it, or
+  /// than the gap that follows it: for all that lie farther than a stop over kReach.
   struct Seen {
     VertexId vertex;
     double x = 0, y = 0;
     double distance = 0;
-    double turn = 0;   ///< from the fan's first direction
-    double angle = 0;  ///< diamond angle, with NearEnds
+    double turn = 0;  ///< from the fan's first direction
     Direction inverse;
-    double slack = 0;        ///< more than what rounding may do to products of `inverse` with unit vectors
-    std::uint32_t next = 0;  ///< counter-clockwise; after the last comes the first
-  };
-  /// What ends certainty about the vertices farther round: a direction, for all vertices farther than
-  /// `distance` over kReach.
-  struct Stop {
-    VertexId vertex;  ///< invalid: a side of a gap that was given up
-    double angle = 0;
-    double distance = 0;
+    double slack = 0;  ///< more than what rounding may do to products of `inverse` with unit vectors
+    std::uint32_t next = 0, previous = 0;  ///< counter-clockwise; after the last comes the first
+    double stop = kNoStop;                 ///< itself, if edges that block end in it
+    double stop_behind = kNoStop;          ///< straight behind it, for itself also
+    double stop_after = kNoStop;           ///< in the gap that follows it, where that was given up
   };
   /// What is known of the triangle's other corner w, as seen from u: nothing, or that it is 60 degrees or
   /// more counter-clockwise, or clockwise, of the place looked at.
   enum class Role : std::uint8_t { Any, Right, Left };
-  /// A closed range of directions, counter-clockwise, and the positions in it at some distance or farther, as
-  /// the corners of a triangle with u that holds them all after inversion.
+  /// The directions between two neighbours in the view, or that of one, and the positions in it at some
+  /// distance or farther, as the corners of a triangle with u that holds them all after inversion.
   struct Range {
-    double right_turn = 0, left_turn = 0;
-    double right = 0, left = 0;   ///< diamond angles
-    Direction to_right, to_left;  ///< unit vectors
-    Direction right_at, left_at;  ///< the corners
-    double horizon = 0;           ///< what lies nearer is known
+    std::uint32_t right = 0, left = 0;        ///< of those seen
+    double right_turn = 0, left_turn = 0;     ///< theirs
+    Direction to_right = {}, to_left = {};    ///< unit vectors
+    Direction right_at = {}, left_at = {};    ///< the corners
+    double horizon = 0;                       ///< what lies nearer is known
     double slack = 0;
     Role role = Role::Any;
-    double sector_end = 0;  ///< of any but Any: a diamond angle 60 degrees from the range's far end
   };
   /// A direction, and what products of inverse positions with it must exceed to cover it.
   struct Probe {
