@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -69,11 +70,11 @@ bool exact_difference(double a, double b, double difference) {
   return a - a_part == 0 && b_part - b == 0;
 }
 
-/// Differences of points as integers in one common unit, if they are such exactly.
+/// Differences of points as integers in one common unit, if they are such exactly. The largest has kBits.
+constexpr int kBits = 61;
 template <std::size_t Count>
 std::optional<std::array<std::int64_t, Count>> integer_differences(
     const std::array<Point2, Count / 2>& points, Point2 origin) {
-  constexpr int kBits = 61;
   std::array<double, Count> exact;
   double largest = 0;
   for (std::size_t i = 0; i < Count / 2; ++i) {
@@ -85,10 +86,12 @@ std::optional<std::array<std::int64_t, Count>> integer_differences(
     }
     largest = std::max({largest, std::abs(exact[2 * i]), std::abs(exact[2 * i + 1])});
   }
-  int exponent = 0;
-  std::frexp(largest, &exponent);
+  // The scale is a power of two that is put together from its bits.
+  constexpr int kBias = 1023, kMantissa = 52;
+  const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> kMantissa) - kBias;
   if (exponent < -900 || exponent > 900) return std::nullopt;
-  const double scale = std::ldexp(1.0, kBits - exponent);
+  const double scale =
+      std::bit_cast<double>(static_cast<std::uint64_t>(kBias + kBits - 1 - exponent) << kMantissa);
   std::array<std::int64_t, Count> integers;
   for (std::size_t i = 0; i < Count; ++i) {
     const double scaled = exact[i] * scale;
@@ -141,6 +144,12 @@ Int256 product(Int128 a, Int128 b) {
   return result;
 }
 
+/// Pre: each is a multiple of two to the power of zeros.
+std::array<std::int64_t, 6> shifted(std::array<std::int64_t, 6> values, int zeros) {
+  for (std::int64_t& value : values) value >>= zeros;
+  return values;
+}
+
 std::optional<int> orientation_in_integers(Point2 a, Point2 b, Point2 c) {
   const auto d = integer_differences<4>({a, b}, c);
   if (!d) return std::nullopt;
@@ -150,11 +159,20 @@ std::optional<int> orientation_in_integers(Point2 a, Point2 b, Point2 c) {
   return left == right ? 0 : left > right ? 1 : -1;
 }
 
-// Differences have 61 bits, minors and squares at most 124, the determinant at most 250.
+// Differences have 61 bits, minors and squares at most 124, the determinant at most 250. On a lattice most of
+// these bits are zeros at the end: without them it is often 30 bits, at most 62 and at most 126.
 std::optional<int> in_circle_in_integers(Point2 a, Point2 b, Point2 c, Point2 d) {
   const auto differences = integer_differences<6>({a, b, c}, d);
   if (!differences) return std::nullopt;
   const auto [ax, ay, bx, by, cx, cy] = *differences;
+  const int zeros = std::countr_zero(static_cast<std::uint64_t>(ax | ay | bx | by | cx | cy));
+  if (zeros >= kBits - 30) {
+    const auto [adx, ady, bdx, bdy, cdx, cdy] = shifted(*differences, zeros);
+    const Int128 determinant = Int128{adx * adx + ady * ady} * (bdx * cdy - cdx * bdy) +
+                               Int128{bdx * bdx + bdy * bdy} * (cdx * ady - adx * cdy) +
+                               Int128{cdx * cdx + cdy * cdy} * (adx * bdy - bdx * ady);
+    return determinant == 0 ? 0 : determinant > 0 ? 1 : -1;
+  }
   const auto lift = [](std::int64_t x, std::int64_t y) { return Int128{x} * x + Int128{y} * y; };
   const auto minor = [](std::int64_t px, std::int64_t py, std::int64_t qx, std::int64_t qy) {
     return Int128{px} * qy - Int128{qx} * py;
@@ -163,6 +181,13 @@ std::optional<int> in_circle_in_integers(Point2 a, Point2 b, Point2 c, Point2 d)
   determinant.add(product(lift(bx, by), minor(cx, cy, ax, ay)));
   determinant.add(product(lift(cx, cy), minor(ax, ay, bx, by)));
   return determinant.sign();
+}
+
+/// In-circle of points that are not the corners of a rectangle.
+int in_circle_of_others(Point2 a, Point2 b, Point2 c, Point2 d) {
+  if (const auto sign = in_circle_in_integers(a, b, c, d)) return *sign;
+  return static_cast<int>(
+      Kernel().side_of_oriented_circle_2_object()(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
 }
 
 /// If a, b, c and d are the corners of a rectangle along the axes, as in every cell of a raster: the one of
@@ -209,10 +234,7 @@ int orientation_exact(Point2 a, Point2 b, Point2 c) {
 }
 
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
-  if (opposite_in_rectangle(a, b, c, d)) return 0;
-  if (const auto sign = in_circle_in_integers(a, b, c, d)) return *sign;
-  return static_cast<int>(
-      Kernel().side_of_oriented_circle_2_object()(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+  return opposite_in_rectangle(a, b, c, d) ? 0 : in_circle_of_others(a, b, c, d);
 }
 
 int side_of_plane_exact(Point2 a, Point2 b, Point2 c, Point2 d, const std::array<double, 4>& heights) {
@@ -235,7 +257,7 @@ int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {
 // the upper right corner.
 bool in_circle_perturbed_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
   if (const auto o = opposite_in_rectangle(a, b, c, d)) return (d.x > o->x) != (d.y > o->y);
-  const int sign = in_circle_exact(a, b, c, d);
+  const int sign = in_circle_of_others(a, b, c, d);
   return sign != 0 ? sign > 0 : break_cocircular_tie(a, b, c, d) > 0;
 }
 

@@ -1,12 +1,13 @@
 // Reduce, split, solve the pieces one by one, add up what they leave open.
 //
 // Pieces share no term and no block, so labels of different pieces may be put together, and gaps between
-// value and bound add up. Large pieces go first, each as a task of its own; small ones follow in batches.
+// value and bound add up. Most pieces are small and have a solver of their own. Large pieces go first, each as a task of its own; small ones follow in batches.
 #include "optimize/decomposition.hpp"
 
 #include "base/parallel.hpp"
 #include "optimize/piece.hpp"
 #include "optimize/reduction.hpp"
+#include "optimize/small_piece.hpp"
 
 #include <algorithm>
 
@@ -55,16 +56,25 @@ class Decomposition {
 
   void solve_parts(std::span<const std::uint32_t> parts, std::size_t batch) {
     for_each_block(parts.size(), batch, progress_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) solve_part(parts[i]);
+      SmallPiece<Criteria> small;
+      for (std::size_t i = begin; i < end; ++i) solve_part(parts[i], small);
     });
   }
 
-  void solve_part(std::size_t i) {
+  void solve_part(std::size_t i, SmallPiece<Criteria>& small) {
     const std::span<std::uint32_t> variables = part(i);
     std::sort(variables.begin(), variables.end(),
               [&](std::uint32_t a, std::uint32_t b) { return rank_[a] < rank_[b]; });
     for (std::uint32_t j = 0; j < variables.size(); ++j) index_[variables[j]] = j;
-    const Labelling<Criteria> piece = restrict_to<Criteria>(problem_, reduction_, node_, {variables, index_});
+    const Selection selection{variables, index_};
+    if (small.solve(problem_, reduction_, selection, width_limit_)) {
+      outcome_[i].figures.width = small.width();
+      outcome_[i].figures.table_entries = small.table_entries();
+      outcome_[i].figures.used_tables = true;
+      for (std::size_t j = 0; j < variables.size(); ++j) label_[variables[j]] = small.label()[j];
+      return;
+    }
+    const Labelling<Criteria> piece = restrict_to<Criteria>(problem_, reduction_, node_, selection);
     std::vector<Label> label;
     if (auto exact = solve_exactly(piece, width_limit_, progress_)) {
       label = std::move(exact->label);

@@ -33,11 +33,14 @@ template <std::size_t Criteria>
 class Reducer {
  public:
   Reducer(const Labelling<Criteria>& problem, const Progress& progress)
-      : problem_(problem), progress_(progress), queued_(problem.size(), 0) {
+      : problem_(problem), progress_(progress), queued_(problem.size(), Queued::No) {
     out_.label.assign(problem.size(), Label::Open);
     out_.block.assign(problem.size(), kNone);
     out_.nodes = UnionFind(problem.node_count);
   }
+
+  /// Whether a variable is on the work list, and if so, with which verdict.
+  enum class Queued : std::uint8_t { No, Unjudged, ForZero, ForOne };
 
   Reduction run() {
     fill_work_list();
@@ -77,21 +80,22 @@ class Reducer {
     return problem_.has_link(q) && out_.nodes.find(problem_.link[q].a) != out_.nodes.find(problem_.link[q].b);
   }
 
-  /// While all labels are open, a verdict reads nothing that others write.
+  /// While all labels are open, a verdict reads nothing that others write. It stays true.
   void fill_work_list() {
     for_each_block(problem_.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) {
-        queued_[q] = verdict(static_cast<std::uint32_t>(q)) != Label::Open ? 1 : 0;
+        const Label label = verdict(static_cast<std::uint32_t>(q));
+        queued_[q] = label == Label::Zero ? Queued::ForZero : label == Label::One ? Queued::ForOne : Queued::No;
       }
     });
     for (std::uint32_t q = 0; q < queued_.size(); ++q) {
-      if (queued_[q] != 0) work_.push_back(q);
+      if (queued_[q] != Queued::No) work_.push_back(q);
     }
   }
 
   void enqueue(std::uint32_t q) {
-    if (queued_[q] != 0 || out_.label[q] != Label::Open) return;
-    queued_[q] = 1;
+    if (queued_[q] != Queued::No || out_.label[q] != Label::Open) return;
+    queued_[q] = Queued::Unjudged;
     work_.push_back(q);
   }
 
@@ -99,9 +103,11 @@ class Reducer {
     for (std::size_t i = 0; i < work_.size(); ++i) {
       if (i % kBlock == 0) progress_.check();
       const std::uint32_t q = work_[i];
-      queued_[q] = 0;
+      const Queued queued = std::exchange(queued_[q], Queued::No);
       if (out_.label[q] != Label::Open) continue;
-      const Label label = verdict(q);
+      const Label label = queued == Queued::ForZero ? Label::Zero
+                          : queued == Queued::ForOne ? Label::One
+                                                     : verdict(q);
       if (label == Label::Open) continue;
       if (needs_link(q) && label != problem_.link[q].helpful) continue;
       fix(q, label);
@@ -171,7 +177,7 @@ class Reducer {
   const Labelling<Criteria>& problem_;
   const Progress& progress_;
   Reduction out_;
-  std::vector<std::uint8_t> queued_;  ///< by variable: whether it is on the work list
+  std::vector<Queued> queued_;  ///< by variable
   std::vector<std::uint32_t> work_;
   std::vector<std::uint32_t> linked_;  ///< open variables whose link is no loop
   std::vector<std::uint32_t> number_;  ///< by node, while it is numbered

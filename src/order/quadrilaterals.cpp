@@ -21,7 +21,8 @@
 // st
 //    that sees u counts from Std to SeesOpp. Anything else is left to ConstrainedOrder, and happens next to
 //    edges that block. Without such edges all definitions up to Sees3vtx agree.
-// 4. The neighbours across the four sides come first: they refuse most edges.
+// 4. The neighbours across the four sides come first, of these the ones that need no exact arithmetic: they
+// refuse most edges.
 // 5. Std: there is a triangulation of order at most 1 only if the constrained Delaunay triangulation is one;
 // then both
 //    triangles must pass the Std flood as well.
@@ -68,7 +69,8 @@ class QuadrilateralSearch {
   static bool is_corner(const Half& half, VertexId x) {
     return x == half.corners[0] || x == half.corners[1] || x == half.corners[2];
   }
-  [[nodiscard]] Verdict judge_beyond(const Half& half) const;
+  [[nodiscard]] Verdict judge_inside(const Half& half) const;
+  [[nodiscard]] Verdict judge_unclear(const Half& half) const;
   [[nodiscard]] Verdict judge_others(const Half& half) const;
   [[nodiscard]] Verdict judge(const Half& half, VertexId x) const;
   [[nodiscard]] Verdict weigh(const Triangle& corners, VertexId x) const;
@@ -88,15 +90,21 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::weigh(const Triangle& corners,
   return beyond_st && order_.sees(x, corners[1]) ? Verdict::Refused : Verdict::Unclear;
 }
 
-// The vertices across the two sides at the inner vertex.
-QuadrilateralSearch::Verdict QuadrilateralSearch::judge_beyond(const Half& half) const {
+// The vertices across the two sides at the inner vertex, as far as the filter found them inside.
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge_inside(const Half& half) const {
   Verdict worst = Verdict::Fits;
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (half.inside[i] == kOutside) continue;
-    worst = std::max(worst, half.inside[i] == kInside && !is_corner(half, half.beyond[i])
-                                ? weigh(half.corners, half.beyond[i])
-                                : judge(half, half.beyond[i]));
-    if (worst == Verdict::Refused) break;
+  for (std::size_t i = 0; i < 2 && worst != Verdict::Refused; ++i) {
+    if (half.inside[i] != kInside || is_corner(half, half.beyond[i])) continue;
+    worst = std::max(worst, weigh(half.corners, half.beyond[i]));
+  }
+  return worst;
+}
+
+// The same vertices, as far as the filter says nothing of them.
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge_unclear(const Half& half) const {
+  Verdict worst = Verdict::Fits;
+  for (std::size_t i = 0; i < 2 && worst != Verdict::Refused; ++i) {
+    if (half.inside[i] == kUnclear) worst = std::max(worst, judge(half, half.beyond[i]));
   }
   return worst;
 }
@@ -145,12 +153,15 @@ bool QuadrilateralSearch::is_quadrilateral(const EdgeSurroundings& edge, OrderWo
   const auto& [vs, tv, ut, su] = edge.sides;
   const auto& beyond = edge.beyond;
   const Half at_u{{s, u, t}, v, vs, tv, {beyond[0], beyond[1]}, {edge.inside[0], edge.inside[1]}};
-  const Verdict beyond_v = judge_beyond(at_u);
-  if (beyond_v == Verdict::Refused) return false;
   const Half at_v{{t, v, s}, u, ut, su, {beyond[2], beyond[3]}, {edge.inside[2], edge.inside[3]}};
-  const Verdict beyond_u = judge_beyond(at_v);
-  if (beyond_u == Verdict::Refused) return false;
-  return fits(at_u, beyond_v, workspace) && fits(at_v, beyond_u, workspace);
+  std::array<Verdict, 2> verdict{};
+  for (const auto judge_some : {&QuadrilateralSearch::judge_inside, &QuadrilateralSearch::judge_unclear}) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      verdict[i] = std::max(verdict[i], (this->*judge_some)(i == 0 ? at_u : at_v));
+      if (verdict[i] == Verdict::Refused) return false;
+    }
+  }
+  return fits(at_u, verdict[0], workspace) && fits(at_v, verdict[1], workspace);
 }
 
 // The quadrilaterals of a range of halfedges.
