@@ -35,38 +35,66 @@ namespace {
 class CornerOrder {
  public:
   CornerOrder(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, const Progress& progress)
-      : tin_(tin), quadrilaterals_(quadrilaterals), progress_(progress) {}
+      : tin_(tin), quadrilaterals_(quadrilaterals), lowest_(quadrilaterals.size()) {
+    for_each_block(quadrilaterals.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t q = begin; q < end; ++q) {
+        const auto& [s, u, t, v, diagonal] = quadrilaterals_[q];
+        lowest_[q] = std::min({tin_.point(s), tin_.point(u), tin_.point(t), tin_.point(v)});
+      }
+    });
+  }
 
   /// By the x of the lowest corner; within a bucket the order is not made yet.
   [[nodiscard]] Buckets buckets() const {
-    const auto [least, most] = std::minmax_element(tin_.points().begin(), tin_.points().end());
-    const std::size_t count = quadrilaterals_.size();
+    const std::size_t count = lowest_.size();
+    const auto [least, most] = std::minmax_element(lowest_.begin(), lowest_.end());
     const BucketOfCoordinate bucket_of(least->x, most->x, count / 2 + 1);
     std::vector<std::uint32_t> bucket(count);
-    for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t q = begin; q < end; ++q) {
-        bucket[q] = bucket_of(lowest(static_cast<std::uint32_t>(q)).x);
-      }
-    });
+    for (std::size_t q = 0; q < count; ++q) bucket[q] = bucket_of(lowest_[q].x);
     return sort_into_buckets(bucket, count / 2 + 1);
   }
 
-  void sort(std::span<std::uint32_t> items, std::vector<std::pair<Point2, std::uint32_t>>& keys) const {
+  using Key = std::pair<Point2, std::uint32_t>;
+
+  void sort(std::span<std::uint32_t> items, std::vector<Key>& keys) const {
     if (items.size() < 2) return;
     keys.clear();
-    for (const std::uint32_t q : items) keys.emplace_back(lowest(q), q);
-    std::sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
-      if (a.first != b.first) return a.first < b.first;
-      return a.second != b.second && corners(a.second) < corners(b.second);
-    });
+    for (const std::uint32_t q : items) keys.emplace_back(lowest_[q], q);
+    if (keys.size() > kFew && std::ranges::all_of(keys, [&](const Key& key) {
+          return key.first.x == keys.front().first.x;
+        })) {
+      sort_column(keys);
+    } else {
+      sort_keys(keys);
+    }
     for (std::size_t i = 0; i < items.size(); ++i) items[i] = keys[i].second;
   }
 
  private:
-  [[nodiscard]] Point2 lowest(std::uint32_t q) const {
-    const auto& [s, u, t, v, diagonal] = quadrilaterals_[q];
-    return std::min({tin_.point(s), tin_.point(u), tin_.point(t), tin_.point(v)});
+  static constexpr std::size_t kFew = 32;  ///< up to here buckets do not pay
+
+  void sort_keys(std::span<Key> keys) const {
+    std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+      if (a.first != b.first) return a.first < b.first;
+      return a.second != b.second && corners(a.second) < corners(b.second);
+    });
   }
+
+  /// A column of a lattice: keys that differ in y only.
+  void sort_column(std::vector<Key>& keys) const {
+    const auto [least, most] = std::minmax_element(keys.begin(), keys.end());
+    const BucketOfCoordinate bucket_of(least->first.y, most->first.y, keys.size());
+    std::vector<std::uint32_t> bucket;
+    for (const Key& key : keys) bucket.push_back(bucket_of(key.first.y));
+    const Buckets buckets = sort_into_buckets(bucket, keys.size());
+    std::vector<Key> sorted;
+    for (const std::uint32_t i : buckets.item) sorted.push_back(keys[i]);
+    for (std::size_t b = 0; b < buckets.size(); ++b) {
+      sort_keys(std::span(sorted).subspan(buckets.first[b], buckets.first[b + 1] - buckets.first[b]));
+    }
+    keys = std::move(sorted);
+  }
+
   [[nodiscard]] std::array<Point2, 4> corners(std::uint32_t q) const {
     const auto& [s, u, t, v, diagonal] = quadrilaterals_[q];
     std::array<Point2, 4> sorted = {tin_.point(s), tin_.point(u), tin_.point(t), tin_.point(v)};
@@ -76,7 +104,7 @@ class CornerOrder {
 
   const Tin& tin_;
   std::span<const Quadrilateral> quadrilaterals_;
-  const Progress& progress_;
+  std::vector<Point2> lowest_;
 };
 
 }  // namespace
@@ -90,7 +118,7 @@ std::vector<std::uint32_t> add_flips_and_ties(const Tin& tin, std::span<const Qu
   const CornerOrder order(tin, quadrilaterals, progress);
   Buckets sorted = order.buckets();
   for_each_block(sorted.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::pair<Point2, std::uint32_t>> keys;
+    std::vector<CornerOrder::Key> keys;
     for (std::size_t b = begin; b < end; ++b) order.sort(sorted.items(b), keys);
     for (std::size_t r = sorted.first[begin]; r < sorted.first[end]; ++r) {
       const std::uint32_t q = sorted.item[r];
