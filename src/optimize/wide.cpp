@@ -1,15 +1,15 @@
 // Between a labelling and a bound.
 //
-// 1. Start: the labels of a relaxation (relaxation.cpp), or those known before, if they cost less; where
-// labels
-//    fail a cut, all links of that cut are chosen.
+// 1. Start: of labels 0 throughout, which are the best where nothing is gained, those of a relaxation
+//    (relaxation.cpp), and those known before, the ones that cost least; where labels fail a cut, all links of
+//    that cut are chosen.
 // 2. Improve: keep the labels of a set of variables without which the problem is narrow, and find the best
 // labels of
 //    all others together, exactly. The variables that were kept least often are kept next, so that each
 //    becomes free. Until several sets in a row bring nothing.
 // 3. Raise the bound of the relaxation towards the value reached.
 // A third of the effort goes to 2, the rest to 3; tables are narrower than allowed where that buys enough
-// rounds.
+// rounds. Once value and bound meet, nothing more is done.
 #include "optimize/wide.hpp"
 
 #include "optimize/piece.hpp"
@@ -123,22 +123,31 @@ Solution<Criteria> bracket(const Labelling<Criteria>& problem, std::span<const L
                            const Progress& progress) {
   std::uint32_t width = width_limit;
   while (width > 1 && (problem.size() << width) > effort / kRounds) --width;
-  Cost<Criteria> unknown = Cost<Criteria>::infeasible();
-  Relaxed<Criteria> relaxed = relax(problem, unknown, width, 0, progress);
-  std::vector<Label> label = connected(problem, std::move(relaxed.label));
-  if (!known.empty()) {
-    std::vector<Label> other = connected(problem, {known.begin(), known.end()});
-    if (cost_of<Criteria>(problem, other) < cost_of<Criteria>(problem, label)) label = std::move(other);
+  Cost<Criteria> bound;
+  bound.level[0] = first_level_bound;
+  for (std::size_t l = 1; l < Cost<Criteria>::kLevels; ++l) bound.level[l] = least_of_level(problem, l);
+  Solution<Criteria> solution;
+  solution.label = connected(problem, std::vector<Label>(problem.size(), Label::Zero));
+  solution.value = cost_of<Criteria>(problem, solution.label);
+  const auto start_with = [&](std::vector<Label>&& label) {
+    const Cost<Criteria> value = cost_of<Criteria>(problem, label);
+    if (value < solution.value) solution = {std::move(label), value, {}, {}};
+  };
+  if (bound < solution.value) {
+    Relaxed<Criteria> relaxed = relax(problem, Cost<Criteria>::infeasible(), width, 0, progress);
+    bound = std::max(bound, relaxed.bound);
+    start_with(connected(problem, std::move(relaxed.label)));
+    if (!known.empty()) start_with(connected(problem, {known.begin(), known.end()}));
   }
-  Solution<Criteria> solution =
-      Improver<Criteria>(problem, width, progress).run(std::move(label), effort / 3);
-  relaxed = relax(problem, solution.value, width, effort - effort / 3, progress);
-  solution.bound = relaxed.bound;
-  if (solution.bound.level[0] < first_level_bound) {
-    for (std::size_t level = 0; level < Cost<Criteria>::kLevels; ++level) {
-      solution.bound.level[level] = level == 0 ? first_level_bound : least_of_level(problem, level);
-    }
+  if (bound < solution.value) {
+    solution = Improver<Criteria>(problem, width, progress).run(std::move(solution.label), effort / 3);
   }
+  // Of flips and ties no bound is asked for.
+  const bool proved = Criteria == 1 && bound.level[0] == solution.value.level[0];
+  if (!proved && bound < solution.value) {
+    bound = std::max(bound, relax(problem, solution.value, width, effort - effort / 3, progress).bound);
+  }
+  solution.bound = bound;
   const std::uint64_t entries = solution.figures.table_entries;
   solution.figures = {};
   solution.figures.width = width;

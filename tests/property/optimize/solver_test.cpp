@@ -1,12 +1,17 @@
 // The solver on abstract problems against trying every labelling.
 #include "optimize/solver.hpp"
 
+#include "optimize/piece.hpp"
 #include "optimize/roof_duality.hpp"
+#include "optimize/small_piece.hpp"
 #include "support/random_labelling.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
+#include <utility>
 
 namespace thalweg::test {
 namespace {
@@ -104,6 +109,74 @@ TEST(Solver, BracketsWhatIsTooWide) {
     }
   }
   EXPECT_GT(met, all * 8 / 10);
+}
+
+/// All variables but some that are fixed at random, as one piece.
+template <std::size_t Criteria>
+bool expect_same_as_general(const Labelling<Criteria>& problem, SmallPiece<Criteria>& small, Random& random) {
+  Reduction fixed;
+  fixed.block.assign(problem.size(), kNone);
+  std::vector<std::uint32_t> open, index(problem.size());
+  for (std::uint32_t q = 0; q < problem.size(); ++q) {
+    fixed.label.push_back(std::array{Label::Zero, Label::One, Label::Open}[random.integer<std::size_t>(0, 2)]);
+    if (q % 3 != 0) fixed.label.back() = Label::Open;
+    if (fixed.label.back() == Label::Open) open.push_back(q);
+  }
+  std::shuffle(open.begin(), open.end(), random.engine());
+  for (std::uint32_t i = 0; i < open.size(); ++i) index[open[i]] = i;
+  const Labelling<Criteria> piece = restrict_to<Criteria>(problem, fixed, {}, {open, index});
+  const auto width = random.integer<std::uint32_t>(1, SmallPiece<Criteria>::kMostWidth);
+  const auto exact = solve_exactly(piece, width, Progress());
+  const bool solved = small.solve(problem, fixed, {open, index}, width);
+  if (piece.neighbour.empty()) {
+    EXPECT_FALSE(solved);
+    return false;
+  }
+  EXPECT_EQ(solved, exact.has_value());
+  if (!solved || !exact) return false;
+  EXPECT_TRUE(std::ranges::equal(small.label(), exact->label));
+  EXPECT_EQ(small.width(), exact->width);
+  EXPECT_EQ(small.table_entries(), exact->table_entries);
+  return true;
+}
+
+TEST(SmallPiece, IsSolvedAsAnyOther) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  SmallPiece<1> one;
+  SmallPiece<2> two;
+  std::size_t solved = 0;
+  for (int i = 0; i < 500 && !HasFailure(); ++i) {
+    const LabellingShape shape{.variables = random.integer<std::size_t>(1, SmallPiece<1>::kMostVariables),
+                               .pairs_per_variable = random.real(0, 2),
+                               .range = random.integer(0, 8)};
+    solved += expect_same_as_general(random_labelling<1>(shape, random), one, random) ? 1 : 0;
+    solved += expect_same_as_general(random_labelling<2>(shape, random), two, random) ? 1 : 0;
+  }
+  EXPECT_GT(solved, 400U);
+}
+
+TEST(Solver, TiesThroughoutKeepLabelsZero) {
+  // Neighbours on a lattice that had better agree, and nothing else: wide, with two optima.
+  constexpr std::uint32_t kSide = 30;
+  Labelling<1> problem;
+  for (std::uint32_t q = 0; q < kSide * kSide; ++q) {
+    for (const auto& [neighbour, there] :
+         {std::pair{q - 1, q % kSide != 0}, std::pair{q + 1, (q + 1) % kSide != 0},
+          std::pair{q - kSide, q >= kSide}, std::pair{q + kSide, q + kSide < kSide * kSide}}) {
+      if (!there) continue;
+      problem.neighbour.push_back(neighbour);
+      problem.weight.push_back({-2});
+    }
+    problem.first.push_back(static_cast<std::uint32_t>(problem.neighbour.size()));
+    const auto degree = problem.first[q + 1] - problem.first[q];
+    problem.unary.push_back({{degree, 1, 7}});
+  }
+  problem.tables.index(problem.size());
+  const Solution<1> solution = solve<1>(problem, identity(problem.size()), {8, 2'000'000'000}, Progress());
+  EXPECT_EQ(std::ranges::count(solution.label, Label::One), 0);
+  EXPECT_EQ(solution.bound, solution.value);
+  EXPECT_LT(solution.figures.table_entries, 1'000'000U);
 }
 
 TEST(RoofDuality, FixesWhatEveryOptimumHas) {
