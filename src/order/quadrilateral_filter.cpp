@@ -1,8 +1,8 @@
 // Filters in batches.
 //
 // Loops over arrays, without branches, so that the compiler makes them ones of vector instructions; they are
-// compiled for several processors and chosen at run time. Bounds are those of geometry/predicates.hpp, and
-// what they leave unclear is decided by the exact predicates, so results do not depend on the processor.
+// compiled for several processors and chosen at run time. What the filters leave unclear is decided by the
+// exact predicates, so results do not depend on the processor.
 #include "order/quadrilateral_filter.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
@@ -13,18 +13,12 @@ namespace thalweg {
 
 namespace {
 
-constexpr double kEpsilon = 0x1p-53;
-
-/// +1, -1, or 0 if rounding may hide the sign.
-inline double sign_beyond(double value, double magnitude, double bound, double no_underflow) {
-  const double positive = value > bound * magnitude ? 1.0 : 0.0;
-  const double negative = -value > bound * magnitude ? 1.0 : 0.0;
-  return magnitude > no_underflow ? positive - negative : 0.0;
+/// +1, -1, or 0 if rounding may hide the sign; without branches.
+inline double sign_of(RoundedDeterminant determinant) {
+  const double positive = determinant.value > determinant.doubt ? 1.0 : 0.0;
+  const double negative = -determinant.value > determinant.doubt ? 1.0 : 0.0;
+  return positive - negative;
 }
-
-struct Place {
-  double x, y;
-};
 
 /// A halfedge's triangle and place in it, and the ids that follow from these: divided by three once.
 struct Spot {
@@ -36,25 +30,6 @@ struct Spot {
   [[nodiscard]] HalfedgeId previous() const { return HalfedgeId{3 * triangle + previous_side()}; }
 };
 
-inline double turn(Place a, Place b, Place c) {
-  constexpr double kBound = (3 + 16 * kEpsilon) * kEpsilon;
-  const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
-  return sign_beyond(left - right, std::abs(left) + std::abs(right), kBound, 1e-280);
-}
-
-inline double side_of_circle(Place a, Place b, Place c, Place d) {
-  constexpr double kBound = (10 + 96 * kEpsilon) * kEpsilon;
-  const double adx = a.x - d.x, ady = a.y - d.y, bdx = b.x - d.x, bdy = b.y - d.y;
-  const double cdx = c.x - d.x, cdy = c.y - d.y;
-  const double bc = bdx * cdy, cb = cdx * bdy, ca = cdx * ady, ac = adx * cdy, ab = adx * bdy, ba = bdx * ady;
-  const double a_lift = adx * adx + ady * ady, b_lift = bdx * bdx + bdy * bdy;
-  const double c_lift = cdx * cdx + cdy * cdy;
-  const double determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
-  const double magnitude = (std::abs(bc) + std::abs(cb)) * a_lift + (std::abs(ca) + std::abs(ac)) * b_lift +
-                           (std::abs(ab) + std::abs(ba)) * c_lift;
-  return sign_beyond(determinant, magnitude, kBound, 1e-250);
-}
-
 }  // namespace
 
 // The choice is made before sanitizers are ready.
@@ -64,10 +39,10 @@ inline double side_of_circle(Place a, Place b, Place c, Place d) {
 #endif
 void QuadrilateralFilter::judge_corners(Columns& at) {
   for (std::size_t i = 0; i < kMost; ++i) {
-    const Place s{at.x[0][i], at.y[0][i]}, u{at.x[1][i], at.y[1][i]};
-    const Place t{at.x[2][i], at.y[2][i]}, v{at.x[3][i], at.y[3][i]};
-    at.verdict[0][i] = turn(s, u, t);
-    at.verdict[1][i] = turn(t, v, s);
+    const Point2 s{at.x[0][i], at.y[0][i]}, u{at.x[1][i], at.y[1][i]};
+    const Point2 t{at.x[2][i], at.y[2][i]}, v{at.x[3][i], at.y[3][i]};
+    at.verdict[0][i] = sign_of(orientation_rounded(s, u, t));
+    at.verdict[1][i] = sign_of(orientation_rounded(t, v, s));
   }
 }
 
@@ -77,12 +52,12 @@ void QuadrilateralFilter::judge_corners(Columns& at) {
 #endif
 void QuadrilateralFilter::judge_circles(Columns& at) {
   for (std::size_t i = 0; i < kMost; ++i) {
-    const Place s{at.x[0][i], at.y[0][i]}, u{at.x[1][i], at.y[1][i]};
-    const Place t{at.x[2][i], at.y[2][i]}, v{at.x[3][i], at.y[3][i]};
-    at.verdict[0][i] = side_of_circle(s, u, t, {at.x[4][i], at.y[4][i]});
-    at.verdict[1][i] = side_of_circle(s, u, t, {at.x[5][i], at.y[5][i]});
-    at.verdict[2][i] = side_of_circle(t, v, s, {at.x[6][i], at.y[6][i]});
-    at.verdict[3][i] = side_of_circle(t, v, s, {at.x[7][i], at.y[7][i]});
+    const Point2 s{at.x[0][i], at.y[0][i]}, u{at.x[1][i], at.y[1][i]};
+    const Point2 t{at.x[2][i], at.y[2][i]}, v{at.x[3][i], at.y[3][i]};
+    at.verdict[0][i] = sign_of(in_circle_rounded(s, u, t, {at.x[4][i], at.y[4][i]}));
+    at.verdict[1][i] = sign_of(in_circle_rounded(s, u, t, {at.x[5][i], at.y[5][i]}));
+    at.verdict[2][i] = sign_of(in_circle_rounded(t, v, s, {at.x[6][i], at.y[6][i]}));
+    at.verdict[3][i] = sign_of(in_circle_rounded(t, v, s, {at.x[7][i], at.y[7][i]}));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace thalweg {
 
@@ -23,32 +24,42 @@ int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d);
 bool in_circle_perturbed_exact(Point2 a, Point2 b, Point2 c, Point2 d);
 }  // namespace detail
 
-/// +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if collinear.
-/// Error bounds: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997, section 4 (stage A).
-inline int orientation(Point2 a, Point2 b, Point2 c) {
-  constexpr double kEpsilon = 0x1p-53;
-  constexpr double kBound = (3 + 16 * kEpsilon) * kEpsilon;
-  constexpr double kNoUnderflow = 1e-280;
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
-  const double determinant = left - right;
-  const double magnitude = std::abs(left) + std::abs(right);
-  const double bound = kBound * magnitude;
-  if (magnitude > kNoUnderflow) {
-    if (determinant > bound) return 1;
-    if (-determinant > bound) return -1;
-  }
-  return detail::orientation_exact(a, b, c);
-}
-
 /// What a filter says when rounding may hide the sign.
 inline constexpr int kUndecided = 2;
 
-/// As `in_circle`, or kUndecided; a coordinate that is NaN is always undecided.
-inline int in_circle_filtered(Point2 a, Point2 b, Point2 c, Point2 d) {
+/// A determinant as rounding leaves it. Its sign is right if it is larger than the doubt, which is infinite
+/// where underflow may hide something.
+struct RoundedDeterminant {
+  double value;
+  double doubt;
+  [[nodiscard]] int sign() const { return value > doubt ? 1 : -value > doubt ? -1 : kUndecided; }
+};
+
+/// Error bounds of all filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997, section 4
+/// (stage A): (a + b epsilon) epsilon times the sum of the sizes of what was added.
+namespace detail {
+constexpr RoundedDeterminant with_doubt(double value, double size, double a, double b, double no_underflow) {
   constexpr double kEpsilon = 0x1p-53;
-  constexpr double kBound = (10 + 96 * kEpsilon) * kEpsilon;
-  constexpr double kNoUnderflow = 1e-250;
+  const double bound = (a + b * kEpsilon) * kEpsilon * size;
+  return {value, size > no_underflow ? bound : std::numeric_limits<double>::infinity()};
+}
+}  // namespace detail
+
+/// Positive if a, b, c turn counter-clockwise.
+inline RoundedDeterminant orientation_rounded(Point2 a, Point2 b, Point2 c) {
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  return detail::with_doubt(left - right, std::abs(left) + std::abs(right), 3, 16, 1e-280);
+}
+
+/// +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if collinear.
+inline int orientation(Point2 a, Point2 b, Point2 c) {
+  const int sign = orientation_rounded(a, b, c).sign();
+  return sign != kUndecided ? sign : detail::orientation_exact(a, b, c);
+}
+
+/// Positive if d lies inside the circle through a, b, c. Pre: a, b, c counter-clockwise.
+inline RoundedDeterminant in_circle_rounded(Point2 a, Point2 b, Point2 c, Point2 d) {
   const double adx = a.x - d.x, ady = a.y - d.y;
   const double bdx = b.x - d.x, bdy = b.y - d.y;
   const double cdx = c.x - d.x, cdy = c.y - d.y;
@@ -58,15 +69,15 @@ inline int in_circle_filtered(Point2 a, Point2 b, Point2 c, Point2 d) {
   const double a_lift = adx * adx + ady * ady;
   const double b_lift = bdx * bdx + bdy * bdy;
   const double c_lift = cdx * cdx + cdy * cdy;
-  const double determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
-  const double magnitude = (std::abs(bc) + std::abs(cb)) * a_lift + (std::abs(ca) + std::abs(ac)) * b_lift +
-                           (std::abs(ab) + std::abs(ba)) * c_lift;
-  const double bound = kBound * magnitude;
-  if (magnitude > kNoUnderflow) {
-    if (determinant > bound) return 1;
-    if (-determinant > bound) return -1;
-  }
-  return kUndecided;
+  const double size = (std::abs(bc) + std::abs(cb)) * a_lift + (std::abs(ca) + std::abs(ac)) * b_lift +
+                      (std::abs(ab) + std::abs(ba)) * c_lift;
+  return detail::with_doubt(a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba), size, 10, 96,
+                            1e-250);
+}
+
+/// As `in_circle`, or kUndecided; a coordinate that is NaN is always undecided.
+inline int in_circle_filtered(Point2 a, Point2 b, Point2 c, Point2 d) {
+  return in_circle_rounded(a, b, c, d).sign();
 }
 
 /// +1 if d lies inside the circle through a, b, c, -1 if outside, 0 if on it.
@@ -79,24 +90,19 @@ inline int in_circle(Point2 a, Point2 b, Point2 c, Point2 d) {
 /// +1 if d lies above the plane through a, b, c, -1 if below, 0 if on it; heights in the order of the points.
 /// Pre: a, b, c counter-clockwise.
 inline int side_of_plane(Point2 a, Point2 b, Point2 c, Point2 d, const std::array<double, 4>& heights) {
-  constexpr double kEpsilon = 0x1p-53;
-  constexpr double kBound = (7 + 56 * kEpsilon) * kEpsilon;
-  constexpr double kNoUnderflow = 1e-250;
   const double adx = a.x - d.x, bdx = b.x - d.x, cdx = c.x - d.x;
   const double ady = a.y - d.y, bdy = b.y - d.y, cdy = c.y - d.y;
   const double adz = heights[0] - heights[3], bdz = heights[1] - heights[3], cdz = heights[2] - heights[3];
+  if (adz == 0 && bdz == 0 && cdz == 0) return 0;
   const double bc = bdx * cdy, cb = cdx * bdy;
   const double ca = cdx * ady, ac = adx * cdy;
   const double ab = adx * bdy, ba = bdx * ady;
-  const double below = adz * (bc - cb) + bdz * (ca - ac) + cdz * (ab - ba);  // positive: d is below
-  const double magnitude = (std::abs(bc) + std::abs(cb)) * std::abs(adz) +
-                           (std::abs(ca) + std::abs(ac)) * std::abs(bdz) +
-                           (std::abs(ab) + std::abs(ba)) * std::abs(cdz);
-  if (adz == 0 && bdz == 0 && cdz == 0) return 0;
-  if (magnitude > kNoUnderflow) {
-    if (below > kBound * magnitude) return -1;
-    if (-below > kBound * magnitude) return 1;
-  }
+  const double above = -(adz * (bc - cb) + bdz * (ca - ac) + cdz * (ab - ba));
+  const double size = (std::abs(bc) + std::abs(cb)) * std::abs(adz) +
+                      (std::abs(ca) + std::abs(ac)) * std::abs(bdz) +
+                      (std::abs(ab) + std::abs(ba)) * std::abs(cdz);
+  const int sign = detail::with_doubt(above, size, 7, 56, 1e-250).sign();
+  if (sign != kUndecided) return sign;
   return detail::side_of_plane_exact(a, b, c, d, heights);
 }
 
