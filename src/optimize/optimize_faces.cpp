@@ -388,9 +388,12 @@ class FaceRun {
     if (counts_pits(level)) bound = choice.bound.level[level];
     if (is_extreme(level)) bound = settled_[level].bound;
     const double per_unit = is_count ? 1 : steps_per_unit(*levels_[level]);
-    line.delaunay = static_cast<double>(delaunay) / per_unit;
-    line.result = static_cast<double>(result) / per_unit;
-    line.bound = static_cast<double>(bound) / per_unit;
+    const auto in_units = [&](WideSteps steps) {
+      return steps == 0 ? 0 : static_cast<double>(steps) / per_unit;
+    };
+    line.delaunay = in_units(delaunay);
+    line.result = in_units(result);
+    line.bound = in_units(bound);
     line.optimal = result == bound;
     line.method = method_name(choice.figures);
     if (is_extreme(level)) line.method = "bisection over limits by " + line.method;

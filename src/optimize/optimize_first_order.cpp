@@ -423,9 +423,12 @@ class Run {
     const WideSteps bound =
         delaunay + left_out.least +
         (proved_before ? solution_.bound.level[level] : least_of_level(problem_.labelling, level));
-    line.delaunay = static_cast<double>(delaunay) / per_unit;
-    line.result = static_cast<double>(result) / per_unit;
-    line.bound = static_cast<double>(bound) / per_unit;
+    const auto in_units = [&](WideSteps steps) {
+      return steps == 0 ? 0 : static_cast<double>(steps) / per_unit;
+    };
+    line.delaunay = in_units(delaunay);
+    line.result = in_units(result);
+    line.bound = in_units(bound);
     line.optimal = proved_before && result == bound;
     line.method = method_name(solution_.figures);
   }

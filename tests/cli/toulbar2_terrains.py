@@ -18,7 +18,7 @@ import tempfile
 import time
 
 SUMS = ["normal-angle-sum", "normal-angle-squares", "edge-length", "area-ratio-sum", "convex-edges", "convex-vertices",
-        "mixed-vertices", "local-minima,normal-angle-sum"]
+        "mixed-vertices", "local-minima,normal-angle-sum", "pit-depth,normal-angle-sum"]
 WORST = ["normal-angle-max", "area-ratio-max", "max-degree", "local-minima,normal-angle-max"]
 MOST_QUADRILATERALS = 2000
 WINDOWS = 3

@@ -20,7 +20,8 @@ import time
 
 CRITERIA = ["local-minima", "normal-angle-sum", "normal-angle-squares", "normal-angle-max", "max-area", "max-angle",
             "min-angle", "edge-length", "area-ratio-max", "area-ratio-sum", "convex-vertices", "mixed-vertices",
-            "convex-edges", "max-degree", "flat-triangles", "vertical-error"]
+            "convex-edges", "max-degree", "flat-triangles", "vertical-error", "pit-depth", "valley-triangles",
+            "draining-valleys"]
 
 
 def terrains(root):
