@@ -139,6 +139,14 @@ void describe_input(const ReadResult& read, const Ground& ground, Report& report
 
 namespace {
 
+void check_changes(const BuildConfig& config, const OutputConfig& output) {
+  check_condition(config.condition, config.labelling, output);
+  if (config.condition.steps.empty() || (!config.max_error_m && !config.max_points)) return;
+  throw Error(ErrorCode::Usage,
+              "--condition changes heights, so that no error of a simplification could be told; simplify "
+              "first, then condition what is left with thalweg optimize --condition");
+}
+
 BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const OutputConfig& output,
                  Progress& progress) {
   Stopwatch watch;
@@ -146,12 +154,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   Report& report = built.report;
   report.command = "build";
   report.engine = engine_name(config.ground.engine);
-  check_condition(config.condition, config.labelling, output);
-  if (!config.condition.steps.empty() && (config.max_error_m || config.max_points)) {
-    throw Error(ErrorCode::Usage,
-                "--condition changes heights, so that no error of a simplification could be told; simplify "
-                "first, then condition what is left with thalweg optimize --condition");
-  }
+  check_changes(config, output);
   RunOutputs outputs(output);
 
   progress.start_phase("read");
