@@ -4,6 +4,7 @@
 //    at which water parts, up to the side; where such a line meets the upper corner, up to it.
 // 2. On each edge whose two sides belong to different ground (a ridge, the rim, beside level triangles): the
 //    parts of it where they do.
+// 3. Nearly all triangles have water that comes to one sink only, as their neighbours' does: nothing to do.
 #include "terrain/catchment_borders.hpp"
 
 #include "base/ordered_blocks.hpp"
@@ -16,8 +17,7 @@ namespace thalweg {
 namespace {
 
 constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kBlock = 12288;
-constexpr std::size_t kAhead = 24;  // halfedges by which pieces are asked for before they are needed
+constexpr std::size_t kBlock = 4096;
 
 /// A part of an edge whose one side is of one group; `point` is its end.
 struct Part {
@@ -26,7 +26,7 @@ struct Part {
   std::uint32_t point = 0;
 };
 
-/// What is found in a block of halfedges.
+/// What is found in a block of triangles.
 struct Slot {
   std::vector<BorderSegment> segments;
   std::vector<Part> left, right, parts;
@@ -35,6 +35,7 @@ struct Slot {
 /// What all blocks share.
 struct Grounds {
   const FlowGraph& graph;
+  std::span<const std::uint32_t> group_of_sink;
   std::span<const std::uint32_t> group;  ///< by node
   std::span<HalfedgeId> side_of_piece;
 };
@@ -44,25 +45,38 @@ class BorderFinder {
   BorderFinder(const Grounds& grounds, Slot& slot)
       : graph_(grounds.graph),
         mesh_(graph_.mesh),
+        group_of_sink_(grounds.group_of_sink),
         group_(grounds.group),
         side_of_piece_(grounds.side_of_piece),
         slot_(slot) {
     slot_.segments.clear();
   }
 
-  void ask_for(HalfedgeId h) const {
-    const FlowTarget target = graph_.target[h.index()];
-    if (target.many()) __builtin_prefetch(graph_.pieces.at(target.index()));
-  }
-
-  void look_at(HalfedgeId h) {
-    const Fall fall = graph_.fall[h.index()];
-    if (fall == Fall::In && graph_.target[h.index()].many()) add_lines(h);
-    if (fall == Fall::Out && graph_.shape[h.index() / 3].line_to_top != 0) add_line_to_top(h);
-    if (mesh_.represents_edge(h)) add_edge(h);
+  void look_at(TriangleId t) {
+    const std::uint32_t group = group_of(t);
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (group == kSeveral) add_lines_at(h);
+      const HalfedgeId twin = mesh_.twin(h);
+      if (twin.valid() && twin < h) continue;
+      if (!twin.valid() || group == kSeveral || group != group_of(Tin::triangle_of(twin))) add_edge(h);
+    }
   }
 
  private:
+  static constexpr std::uint32_t kSeveral = kOutside - 1;  // as a group no more than a guess: one looks closer
+
+  [[nodiscard]] std::uint32_t group_of(TriangleId t) const {
+    const std::uint32_t sink = graph_.only_sink[t.index()];
+    return sink < group_of_sink_.size() ? group_of_sink_[sink] : kSeveral;
+  }
+
+  void add_lines_at(HalfedgeId h) {
+    const Fall fall = graph_.fall[h.index()];
+    if (fall == Fall::In && graph_.target[h.index()].many()) add_lines(h);
+    if (fall == Fall::Out && graph_.shape[h.index() / 3].line_to_top != 0) add_line_to_top(h);
+  }
+
   [[nodiscard]] std::uint32_t point_of_piece(std::uint32_t piece) const {
     return static_cast<std::uint32_t>(mesh_.vertex_count()) + piece;
   }
@@ -168,6 +182,7 @@ class BorderFinder {
 
   const FlowGraph& graph_;
   const FlowMesh& mesh_;
+  std::span<const std::uint32_t> group_of_sink_;
   std::span<const std::uint32_t> group_;
   std::span<HalfedgeId> side_of_piece_;
   Slot& slot_;
@@ -197,22 +212,19 @@ CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint3
   LargeVector<std::uint32_t> group(graph.node_count());
   for_each_block(group.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t node = begin; node < end; ++node) {
-      const std::uint32_t sink = graph.sink_of_node(static_cast<FlowNode>(node));
+      const std::uint32_t sink = graph.sink_of_node[node];
       group[node] = sink == SinkId::kInvalid ? kOutside : group_of_sink[sink];
     }
   });
   CatchmentBorders borders;
   borders.segments.reserve(graph.mesh.vertex_count());
   borders.side_of_piece.resize(graph.pieces.end());
-  const Grounds grounds{graph, group, borders.side_of_piece};
+  const Grounds grounds{graph, group_of_sink, group, borders.side_of_piece};
   for_each_block_in_order<Slot>(
-      graph.mesh.halfedge_count(), kBlock, progress,
+      graph.mesh.triangle_count(), kBlock, progress,
       [&](std::size_t begin, std::size_t end, Slot& slot) {
         BorderFinder finder(grounds, slot);
-        for (std::size_t h = begin; h < end; ++h) {
-          if (h + kAhead < end) finder.ask_for(HalfedgeId{h + kAhead});
-          finder.look_at(HalfedgeId{h});
-        }
+        for (std::size_t t = begin; t < end; ++t) finder.look_at(TriangleId{t});
       },
       [&](std::size_t /*begin*/, std::size_t /*end*/, const Slot& slot) {
         borders.segments.insert(borders.segments.end(), slot.segments.begin(), slot.segments.end());

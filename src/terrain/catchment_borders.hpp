@@ -27,9 +27,14 @@ struct CatchmentBorders {
   LargeVector<HalfedgeId> side_of_piece;
 
   [[nodiscard]] FlowPoint point(const FlowGraph& graph, std::uint32_t number) const;
-  /// What puts points into an order that does not depend on the mesh's numbers: the TIN's, of vertices.
-  [[nodiscard]] static std::uint32_t rank(const FlowMesh& mesh, std::uint32_t number) {
-    return number < mesh.vertex_count() ? mesh.given(VertexId{number}).value() : number;
+  /// What puts points into an order that depends on the TIN alone: vertices by its numbers, then ends of pieces
+  /// by its halfedges.
+  [[nodiscard]] std::uint64_t rank(const FlowGraph& graph, std::uint32_t number) const {
+    const auto n = static_cast<std::uint32_t>(graph.mesh.vertex_count());
+    if (number < n) return std::uint64_t{graph.mesh.given(VertexId{number}).value()} << 32U;
+    const HalfedgeId h = side_of_piece[number - n];
+    const std::uint64_t side = n + graph.mesh.given(h).value();
+    return side << 32U | (number - n - graph.target[h.index()].index());
   }
 };
 

@@ -45,24 +45,26 @@ class Chainer {
  public:
   Chainer(const FlowGraph& graph, const CatchmentBorders& borders) : graph_(graph), borders_(borders) {}
 
-  Catchment chain(std::span<BorderSegment> segments) {
-    std::sort(segments.begin(), segments.end(), [&](const BorderSegment& a, const BorderSegment& b) {
-      return a.from == b.from ? rank(a.to) < rank(b.to) : rank(a.from) < rank(b.from);
+  /// `segments`: all of one group.
+  Catchment chain(std::span<const BorderSegment> segments) {
+    segments_.clear();
+    for (const BorderSegment& s : segments) segments_.push_back({rank(s.from), s.from, s.to});
+    std::sort(segments_.begin(), segments_.end(), [&](const Ranked& a, const Ranked& b) {
+      return a.rank == b.rank ? rank(a.to) < rank(b.to) : a.rank < b.rank;
     });
-    segments_ = segments;
     used_.assign(segments.size(), 0);
     place_.assign(segments.size(), kNowhere);
-    for (std::size_t start = 0; start < segments.size(); ++start) {
+    for (std::size_t start = 0; start < segments_.size(); ++start) {
       if (used_[start] != 0) continue;
       path_.clear();
-      std::size_t first = first_from(segments[start].from);
-      for (std::size_t s = start; s < segments.size(); s = next_of(segments[s], first)) {
+      std::size_t first = first_from(segments_[start].from);
+      for (std::size_t s = start; s < segments_.size(); s = next_of(segments_[s], first)) {
         used_[s] = 1;
         // The first segment from a point stands for the point.
         if (place_[first] != kNowhere) close(place_[first]);
         place_[first] = static_cast<std::uint32_t>(path_.size());
-        path_.push_back({first, borders_.point(graph_, segments[s].from)});
-        first = first_from(segments[s].to);
+        path_.push_back({first, borders_.point(graph_, segments_[s].from)});
+        first = first_from(segments_[s].to);
       }
       close(0);
     }
@@ -72,24 +74,25 @@ class Chainer {
  private:
   static constexpr std::uint32_t kNowhere = 0xffffffffU;
 
+  struct Ranked {
+    std::uint64_t rank = 0;  // of `from`
+    std::uint32_t from = 0, to = 0;
+  };
   struct Passed {
     std::size_t first = 0;
     FlowPoint point;
   };
 
-  [[nodiscard]] std::uint32_t rank(std::uint32_t point) const {
-    return CatchmentBorders::rank(graph_.mesh, point);
-  }
+  [[nodiscard]] std::uint64_t rank(std::uint32_t point) const { return borders_.rank(graph_, point); }
 
   [[nodiscard]] std::size_t first_from(std::uint32_t point) const {
-    const auto at =
-        std::lower_bound(segments_.begin(), segments_.end(), rank(point),
-                         [&](const BorderSegment& s, std::uint32_t place) { return rank(s.from) < place; });
+    const auto at = std::lower_bound(segments_.begin(), segments_.end(), rank(point),
+                                     [](const Ranked& s, std::uint64_t place) { return s.rank < place; });
     return static_cast<std::size_t>(at - segments_.begin());
   }
 
   // The segment that goes on from `segment`, or the end. `first`: from its end.
-  [[nodiscard]] std::size_t next_of(const BorderSegment& segment, std::size_t first) const {
+  [[nodiscard]] std::size_t next_of(const Ranked& segment, std::size_t first) const {
     const auto starts_here = [&](std::size_t s) {
       return s < segments_.size() && segments_[s].from == segment.to;
     };
@@ -155,7 +158,7 @@ class Chainer {
 
   const FlowGraph& graph_;
   const CatchmentBorders& borders_;
-  std::span<BorderSegment> segments_;
+  std::vector<Ranked> segments_;
   std::vector<std::uint8_t> used_;
   std::vector<std::uint32_t> place_;  // in the path, by the first segment from a point
   std::vector<Passed> path_;
@@ -212,7 +215,7 @@ std::vector<Catchment> outline_catchments(const SurfaceFlow& flow,
   for_each_block(catchments.size(), kGroups, progress, {0.6, 1}, [&](std::size_t begin, std::size_t end) {
     Chainer chainer(graph, borders);
     for (std::size_t g = begin; g < end; ++g) {
-      catchments[g] = chainer.chain(std::span(borders.segments).subspan(first[g], first[g + 1] - first[g]));
+      catchments[g] = chainer.chain(std::span<const BorderSegment>(borders.segments).subspan(first[g], first[g + 1] - first[g]));
     }
   });
   std::erase_if(catchments, [](const Catchment& catchment) { return catchment.polygons.empty(); });

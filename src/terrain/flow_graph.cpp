@@ -44,12 +44,6 @@ VertexId FlowGraph::low_corner(TriangleId t) const {
   return lower(lower(corner[0], corner[1]), corner[2]);
 }
 
-std::uint32_t FlowGraph::sink_of_node(FlowNode node) const {
-  if (is_vertex(node)) return sink[vertex_of(node).index()];
-  const Channel& at = channel_of(node);
-  return at.on_rim ? rim_sink[at.low.index()] : sink[at.low.index()];
-}
-
 double FlowGraph::share_of(TriangleId t, const Strip& strip, Point2 p) const {
   const Gradient g = rise_of(mesh, t);
   const Point2 o = mesh.point(mesh.origin(strip.split)), d = mesh.point(mesh.target(strip.split));

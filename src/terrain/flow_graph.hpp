@@ -78,7 +78,10 @@ struct FlowGraph {
   std::vector<HalfedgeId> rim;          ///< halfedges without a twin
   LargeVector<std::uint32_t> rim_sink;  ///< by vertex on the rim: of what leaves there
   std::vector<Sink> sinks;
+  LargeVector<std::uint32_t> sink_of_node;
   LargeVector<double> ground;  ///< by node: the area of the ground whose water comes to it first
+  LargeVector<std::uint32_t> only_sink;  ///< by triangle: of all its water, or kSeveralSinks
+  static constexpr std::uint32_t kSeveralSinks = SinkId::kInvalid - 1;
 
   FlowGraph(const Tin& t, const Progress& progress) : tin(t), mesh(t, progress) {}
 
@@ -103,7 +106,6 @@ struct FlowGraph {
   [[nodiscard]] VertexId low_end(HalfedgeId h) const { return lower(mesh.origin(h), mesh.target(h)); }
   /// The corner to which water on a level triangle goes.
   [[nodiscard]] VertexId low_corner(TriangleId t) const;
-  [[nodiscard]] std::uint32_t sink_of_node(FlowNode node) const;
   /// The vertex at the other end of the step's edge. Pre: it is along an edge.
   [[nodiscard]] VertexId neighbour(VertexId v, const VertexStep& s) const {
     const VertexId a = mesh.origin(s.edge);

@@ -2,6 +2,7 @@
 //
 // Areas are added in the order of triangles, so sums do not depend on threads.
 #include "base/ordered_blocks.hpp"
+#include "base/parallel.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ struct Part {
 /// A triangle on one side of the line that splits it: its shares of a side's way from `from`, at a corner, to
 /// `to`, at the line, in either direction.
 struct Half {
+  TriangleId triangle;
   FlowTarget target;
   double from, to, area;
 };
@@ -35,7 +37,7 @@ struct Half {
 /// Lists the parts of triangles.
 class Divider {
  public:
-  Divider(const FlowGraph& graph, std::vector<Part>& parts) : graph_(graph), parts_(parts) {}
+  Divider(FlowGraph& graph, std::vector<Part>& parts) : graph_(graph), parts_(parts) {}
 
   void divide(std::size_t begin, std::size_t end) {
     for (; begin < end; begin += kBatch) {
@@ -48,23 +50,23 @@ class Divider {
  private:
   static constexpr std::size_t kBatch = 64;  // pieces are asked for so much before they are needed
 
-  void add(FlowTarget target, double from, double to, double area) {
+  void add(TriangleId t, FlowTarget target, double from, double to, double area) {
     if (target.many()) __builtin_prefetch(graph_.pieces.at(target.index()));
-    halves_.push_back({target, from, to, area});
+    halves_.push_back({t, target, from, to, area});
   }
 
   void add_halves(TriangleId t) {
     const double area = area_of(graph_.mesh, t);
-    if (graph_.level(t)) return add(FlowTarget::node(graph_.node_of(graph_.low_corner(t))), 0, 1, area);
+    if (graph_.level(t)) return add(t, FlowTarget::node(graph_.node_of(graph_.low_corner(t))), 0, 1, area);
     const Strip strip = graph_.strip_of(t);
     if (strip.corner_is_low) {
-      if (strip.at > 0) add(graph_.beyond(Tin::previous(strip.split)), 0, 1, area * strip.at);
-      if (strip.at < 1) add(graph_.beyond(Tin::next(strip.split)), 1, 0, area * (1 - strip.at));
+      if (strip.at > 0) add(t, graph_.beyond(Tin::previous(strip.split)), 0, 1, area * strip.at);
+      if (strip.at < 1) add(t, graph_.beyond(Tin::next(strip.split)), 1, 0, area * (1 - strip.at));
     } else {
       const double top = 1 - strip.at;
       const FlowTarget target = graph_.beyond(strip.split);
-      add(target, 0, top, area * top);
-      add(target, 1, top, area * (1 - top));
+      add(t, target, 0, top, area * top);
+      add(t, target, 1, top, area * (1 - top));
     }
   }
 
@@ -72,6 +74,7 @@ class Divider {
   void divide(const Half& half) {
     if (!half.target.many()) {
       parts_.push_back({half.target.index(), half.area});
+      note(half.triangle, half.target.index());
       return;
     }
     const double from = half.from, whole = half.to - half.from;
@@ -80,6 +83,7 @@ class Divider {
     while (piece->end <= least && piece->last == 0) ++piece;
     double low = least, p = (low - from) / whole;
     for (;; ++piece) {
+      note(half.triangle, piece->node);
       const double high = std::min(piece->end, most);
       if (low < high) {
         const double q = (high - from) / whole;
@@ -91,7 +95,13 @@ class Divider {
     }
   }
 
-  const FlowGraph& graph_;
+  void note(TriangleId t, FlowNode node) {
+    std::uint32_t& known = graph_.only_sink[t.index()];
+    const std::uint32_t sink = graph_.sink_of_node[node];
+    known = known == SinkId::kInvalid || known == sink ? sink : FlowGraph::kSeveralSinks;
+  }
+
+  FlowGraph& graph_;
   std::vector<Part>& parts_;
   std::vector<Half> halves_;
 };
@@ -99,7 +109,18 @@ class Divider {
 }  // namespace
 
 void measure_grounds(FlowGraph& graph, const Progress& progress) {
+  graph.sink_of_node.resize(graph.node_count());
+  for_each_block(graph.node_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto node = static_cast<FlowNode>(i);
+      const bool vertex = graph.is_vertex(node);
+      const bool leaves = !vertex && graph.channel_of(node).on_rim;
+      const VertexId v = vertex ? graph.vertex_of(node) : graph.channel_of(node).low;
+      graph.sink_of_node[i] = leaves ? graph.rim_sink[v.index()] : graph.sink[v.index()];
+    }
+  });
   graph.ground.assign(graph.node_count(), 0);
+  graph.only_sink.assign(graph.mesh.triangle_count(), SinkId::kInvalid);
   for_each_block_in_order<std::vector<Part>>(
       graph.mesh.triangle_count(), kBlock, progress,
       [&](std::size_t begin, std::size_t end, std::vector<Part>& parts) {
@@ -111,7 +132,7 @@ void measure_grounds(FlowGraph& graph, const Progress& progress) {
       });
   for (std::size_t node = 0; node < graph.ground.size(); ++node) {
     const double area = graph.ground[node];
-    if (area > 0) graph.sinks[graph.sink_of_node(static_cast<FlowNode>(node))].area += area;
+    if (area > 0) graph.sinks[graph.sink_of_node[node]].area += area;
   }
 }
 

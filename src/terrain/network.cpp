@@ -147,7 +147,7 @@ std::vector<Reach> find_network(const SurfaceFlow& flow, const Spilling& spillin
       reach.points = {vertex_point(high), vertex_point(low)};
       reach.channel = given_edge(graph, edge);
     }
-    reach.sink = spilling.end[graph.sink_of_node(node)];
+    reach.sink = spilling.end[graph.sink_of_node[node]];
     network.push_back(std::move(reach));
   }
   progress.advance(1);

@@ -41,9 +41,9 @@ struct Water {
 };
 
 // The part of a triangle below `level`, of `area` as a whole.
-Water water_in(std::array<double, 3> depth, double area) {
-  std::sort(depth.begin(), depth.end(), std::greater<>());
-  const auto [a, b, c] = depth;
+Water water_in(double p, double q, double r, double area) {
+  const double most = std::max(p, q), least = std::min(p, q);
+  const double a = std::max(most, r), c = std::min(least, r), b = std::max(least, std::min(most, r));
   if (a <= 0) return {};
   if (c >= 0) return {area, area * (a + b + c) / 3};
   if (b <= 0) {
@@ -221,7 +221,6 @@ class Tabulator {
   /// `lake`: room for what is under water, each vertex by a halfedge from it. None is on the rim.
   void measure(std::uint32_t mark, std::vector<HalfedgeId>& lake) {
     Pit& pit = table_.pits[mark];
-    const auto submerged = [&](VertexId v) { return mesh_.height(v) < pit.spill_height; };
     lake.assign(1, mesh_.some_out(bottom_[mark]));
     reached_[bottom_[mark].index()] = mark;
     const auto reach = [&](VertexId v, HalfedgeId out) {
@@ -232,17 +231,20 @@ class Tabulator {
     Water water;
     for (std::size_t next = 0; next < lake.size(); ++next) {
       const VertexId v = mesh_.origin(lake[next]);
+      const Point2 o = mesh_.point(v);
+      const double over_v = pit.spill_height - mesh_.height(v);
       mesh_.for_each_out_around(lake[next], [&](HalfedgeId h) {
-        const VertexId b = mesh_.target(h), c = mesh_.apex(h);
-        const bool wet_b = submerged(b), wet_c = submerged(c);
+        const Triangle& corner = mesh_.triangle(Tin::triangle_of(h));
+        const std::size_t i = h.index() % 3, j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
+        const VertexId b = corner[j], c = corner[k];
+        const double over_b = pit.spill_height - mesh_.height(b), over_c = pit.spill_height - mesh_.height(c);
+        const bool wet_b = over_b > 0, wet_c = over_c > 0;
         if (wet_b) reach(b, Tin::next(h));
         if (wet_c) reach(c, Tin::previous(h));
         if ((wet_b && b < v) || (wet_c && c < v)) return;
-        const Point2 o = mesh_.point(v), p = mesh_.point(b), q = mesh_.point(c);
+        const Point2 p = mesh_.point(b), q = mesh_.point(c);
         const double area = ((p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x)) / 2;
-        const Water part = water_in({pit.spill_height - mesh_.height(v), pit.spill_height - mesh_.height(b),
-                                     pit.spill_height - mesh_.height(c)},
-                                    area);
+        const Water part = water_in(over_v, over_b, over_c, area);
         water.area += part.area;
         water.volume += part.volume;
       });
