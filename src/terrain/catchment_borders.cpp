@@ -81,6 +81,12 @@ class BorderFinder {
     return static_cast<std::uint32_t>(mesh_.vertex_count()) + piece;
   }
 
+  // A line that comes to an end of the side comes to a vertex, and goes no further.
+  [[nodiscard]] std::uint32_t end_of_piece(HalfedgeId h, const FlowPiece& piece, std::uint32_t index) const {
+    if (piece.end > 0 && piece.end < 1) return point_of_piece(index);
+    return (piece.end > 0 ? mesh_.target(h) : mesh_.origin(h)).value();
+  }
+
   void add_segment(std::uint32_t from, std::uint32_t to, std::uint32_t left, std::uint32_t right) {
     if (left == right || from == to) return;
     if (left != kOutside) slot_.segments.push_back({left, from, to});
@@ -97,7 +103,7 @@ class BorderFinder {
         side_of_piece_[i] = h;
         const std::uint32_t from = piece->from;
         add_segment(from == FlowPiece::kFromCorner ? mesh_.apex(h).value() : point_of_piece(from),
-                    point_of_piece(i), left, right);
+                    end_of_piece(h, *piece, i), left, right);
       }
       right = left;
     }
@@ -138,7 +144,8 @@ class BorderFinder {
     for (const FlowPiece* piece = graph_.pieces.at(i);; ++i, ++piece) {
       const bool last = piece->last != 0;
       const std::uint32_t group = group_[piece->node];
-      const Part part{last ? 1 : piece->end, group, last ? mesh_.target(h).value() : point_of_piece(i)};
+      const Part part{last ? 1 : piece->end, group,
+                      last ? mesh_.target(h).value() : end_of_piece(h, *piece, i)};
       if (!parts.empty() && parts.back().group == group) {
         parts.back() = part;
       } else {
