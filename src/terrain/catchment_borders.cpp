@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::uint32_t kOutside = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kAhead = 8;  // triangles by which pieces are asked for before they are needed
 
 /// A part of an edge whose one side is of one group; `point` is its end.
 struct Part {
@@ -50,6 +51,15 @@ class BorderFinder {
         side_of_piece_(grounds.side_of_piece),
         slot_(slot) {
     slot_.segments.clear();
+  }
+
+  /// Asks for the pieces that `look_at` needs.
+  void ask_for(TriangleId t) const {
+    if (group_of(t) != kSeveral) return;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const FlowTarget target = graph_.target[3 * t.index() + side];
+      if (target.many()) __builtin_prefetch(graph_.pieces.at(target.index()));
+    }
   }
 
   void look_at(TriangleId t) {
@@ -231,7 +241,10 @@ CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint3
       graph.mesh.triangle_count(), kBlock, progress,
       [&](std::size_t begin, std::size_t end, Slot& slot) {
         BorderFinder finder(grounds, slot);
-        for (std::size_t t = begin; t < end; ++t) finder.look_at(TriangleId{t});
+        for (std::size_t t = begin; t < end; ++t) {
+          if (t + kAhead < end) finder.ask_for(TriangleId{t + kAhead});
+          finder.look_at(TriangleId{t});
+        }
       },
       [&](std::size_t /*begin*/, std::size_t /*end*/, const Slot& slot) {
         borders.segments.insert(borders.segments.end(), slot.segments.begin(), slot.segments.end());

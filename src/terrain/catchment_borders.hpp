@@ -27,14 +27,18 @@ struct CatchmentBorders {
   LargeVector<HalfedgeId> side_of_piece;
 
   [[nodiscard]] FlowPoint point(const FlowGraph& graph, std::uint32_t number) const;
+  /// Asks for the memory that `point` needs.
+  void ask_for(const FlowGraph& graph, std::uint32_t number) const {
+    const auto n = static_cast<std::uint32_t>(graph.mesh.vertex_count());
+    if (number >= n) __builtin_prefetch(graph.pieces.at(number - n));
+  }
   /// What puts points into an order that depends on the TIN alone: vertices by its numbers, then ends of pieces
   /// by its halfedges.
   [[nodiscard]] std::uint64_t rank(const FlowGraph& graph, std::uint32_t number) const {
     const auto n = static_cast<std::uint32_t>(graph.mesh.vertex_count());
     if (number < n) return std::uint64_t{graph.mesh.given(VertexId{number}).value()} << 32U;
-    const HalfedgeId h = side_of_piece[number - n];
-    const std::uint64_t side = n + graph.mesh.given(h).value();
-    return side << 32U | (number - n - graph.target[h.index()].index());
+    const std::uint64_t side = n + graph.mesh.given(side_of_piece[number - n]).value();
+    return side << 32U | number;  // those of one side follow each other
   }
 };
 

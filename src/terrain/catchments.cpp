@@ -48,7 +48,10 @@ class Chainer {
   /// `segments`: all of one group.
   Catchment chain(std::span<const BorderSegment> segments) {
     segments_.clear();
-    for (const BorderSegment& s : segments) segments_.push_back({rank(s.from), s.from, s.to});
+    for (const BorderSegment& s : segments) {
+      borders_.ask_for(graph_, s.from);
+      segments_.push_back({rank(s.from), s.from, s.to});
+    }
     std::sort(segments_.begin(), segments_.end(), [&](const Ranked& a, const Ranked& b) {
       return a.rank == b.rank ? rank(a.to) < rank(b.to) : a.rank < b.rank;
     });
