@@ -53,12 +53,4 @@ double FlowGraph::share_of(TriangleId t, const Strip& strip, Point2 p) const {
   return share >= 0 && share <= 1 ? share : share > 1 ? 1 : share < 0 ? 0 : 0.5;
 }
 
-FlowNode FlowGraph::node_beyond(HalfedgeId h, double at) const {
-  FlowPiece single;
-  const double along_twin = 1 - at;
-  const FlowPiece* piece = pieces_of(beyond(h), single);
-  while (piece->last == 0 && piece->end <= along_twin) ++piece;
-  return piece->node;
-}
-
 }  // namespace thalweg

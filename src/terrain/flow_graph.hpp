@@ -128,8 +128,6 @@ struct FlowGraph {
     single = {.end = 1, .node = t.index() & kNodeBits, .last = 1, .from = FlowPiece::kFromCorner};
     return &single;
   }
-  /// What water comes to that runs over h at the share `at` of its way. Pre: drains(h).
-  [[nodiscard]] FlowNode node_beyond(HalfedgeId h, double at) const;
 };
 
 /// The parts of a FlowGraph, in this order.

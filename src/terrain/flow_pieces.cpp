@@ -20,24 +20,26 @@ namespace thalweg {
 
 namespace {
 
-constexpr std::size_t kBlock = 24576;  // a multiple of three: whole triangles
+constexpr std::size_t kBlock = 8192;
 
-// An edge is counted where its first halfedge is.
-void mark_channels(FlowGraph& graph, std::vector<std::size_t>& count, const Progress& progress) {
+/// Marks channels; of each block of triangles the halfedges that stand for one.
+std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
-  for_each_block(mesh.halfedge_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    std::size_t here = 0;
-    for (std::size_t i = begin; i < end; ++i) {
+  std::vector<std::vector<HalfedgeId>> found(mesh.triangle_count() / kBlock + 1);
+  for_each_block(mesh.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    std::vector<HalfedgeId>& here = found[begin / kBlock];
+    here.reserve((end - begin) / 4);
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
       const HalfedgeId h{i}, twin = mesh.twin(h);
       const Fall fall = graph.fall[i], beyond = twin.valid() ? graph.fall[twin.index()] : Fall::Level;
       const bool drains = (fall >= Fall::Out) | (beyond >= Fall::Out);
       const bool goes_on = (fall == Fall::In) | (beyond == Fall::In);
       const bool channel = drains & !goes_on;
       graph.channel[i] = channel ? 1 : 0;
-      here += channel && (!twin.valid() || h < twin) ? 1 : 0;
+      if (channel && (!twin.valid() || h < twin)) here.push_back(h);
     }
-    count[begin / kBlock] = here;
   });
+  return found;
 }
 
 }  // namespace
@@ -46,18 +48,20 @@ void find_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
   graph.channel.resize(mesh.halfedge_count());
   graph.target.resize(mesh.halfedge_count());
-  std::vector<std::size_t> first(mesh.halfedge_count() / kBlock + 1, 0);
-  mark_channels(graph, first, progress);
+  const std::vector<std::vector<HalfedgeId>> found = mark_channels(graph, progress);
+  std::vector<std::size_t> first;
   std::size_t total = 0;
-  for (std::size_t& number : first) total += std::exchange(number, total);
+  for (const std::vector<HalfedgeId>& of_block : found) {
+    first.push_back(total);
+    total += of_block.size();
+  }
   graph.channels.resize(total);
-  for_each_block(mesh.halfedge_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    std::size_t number = first[begin / kBlock];
-    for (std::size_t i = begin; i < end; ++i) {
-      const HalfedgeId h{i}, twin = mesh.twin(h);
-      if (graph.channel[i] == 0 || !mesh.represents_edge(h)) continue;
+  for_each_block(found.size(), 1, progress, [&](std::size_t block, std::size_t /*end*/) {
+    std::size_t number = first[block];
+    for (const HalfedgeId h : found[block]) {
+      const HalfedgeId twin = mesh.twin(h);
       const FlowTarget target = FlowTarget::node(static_cast<FlowNode>(number));
-      if (graph.drains(h)) graph.target[i] = target;
+      if (graph.drains(h)) graph.target[h.index()] = target;
       if (twin.valid() && graph.drains(twin)) graph.target[twin.index()] = target;
       graph.channels[number++] = {h, graph.low_end(h), !twin.valid()};
     }
@@ -131,6 +135,7 @@ class PieceFinder {
     const double top = 1 - strip.at;  // along the twin of the Out side
     const FlowTarget target = graph_->beyond(strip.split);
     if (!target.many()) {
+      set_next(strip.split, target.index());
       set(after, target);
       set(before, target);
       return;
@@ -141,13 +146,18 @@ class PieceFinder {
     writer_->start();
     append(strip.split, top, 1, 0, 1);
     keep(before);
-    if (ends_at(target, top)) graph_->shape[t.index()].line_to_top = 1;
+    const FlowPiece* piece = graph_->pieces.at(target.index());
+    while (piece->end < top && piece->last == 0) ++piece;
+    if (piece->end == top && piece->last == 0) graph_->shape[t.index()].line_to_top = 1;
+    while (piece->end <= top && piece->last == 0) ++piece;
+    set_next(strip.split, piece->node);
   }
 
-  [[nodiscard]] bool ends_at(FlowTarget target, double share) const {
-    const FlowPiece* piece = graph_->pieces.at(target.index());
-    while (piece->end < share && piece->last == 0) ++piece;
-    return piece->end == share && piece->last == 0;
+  /// What the line of flow from the high corner across `split` comes to, if the corner's water takes it.
+  void set_next(HalfedgeId split, FlowNode node) {
+    const VertexId v = graph_->mesh.apex(split);
+    const VertexStep& step = graph_->step[v.index()];
+    if (step.kind == VertexStep::Kind::Cross && step.edge == split) graph_->next[v.index()] = node;
   }
 
   // Appends what lies in [from, to] of the pieces of x, stretched to [begin, end] of the side that is built.
@@ -275,6 +285,7 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
 }  // namespace
 
 void find_pieces(FlowGraph& graph, const Progress& progress) {
+  graph.next.assign(graph.mesh.vertex_count(), kNoNode);
   Waiting waiting = count_awaited(graph, progress);
   Parts parts(graph, waiting);
   parts.start(progress);
