@@ -1,5 +1,6 @@
 // The C interface. Every function that can fail runs inside `guarded`, which turns exceptions into a status
 // and keeps the message for the thread.
+#include "base/printable.hpp"
 #include "pipeline/build_arguments.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -68,7 +69,7 @@ static_assert(static_cast<int>(ErrorCode::Internal) + 1 == THALWEG_INTERNAL);
 thalweg_status failed(thalweg_status status, const char* message) noexcept {
   last_status = status;
   try {
-    last_message = message;
+    last_message = thalweg::printable(message);
   } catch (const std::bad_alloc&) {
     last_message.clear();
   }

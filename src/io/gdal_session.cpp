@@ -3,6 +3,7 @@
 // Warnings that nobody took go to the session around.
 #include "io/gdal_session.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
 
@@ -46,7 +47,12 @@ void keep(std::vector<std::string>& messages, const char* text) {
 
 GdalSession::GdalSession() : messages_(std::make_unique<Messages>()) {
   static std::once_flag registered;
-  std::call_once(registered, GDALAllRegister);
+  std::call_once(registered, [] {
+    GDALAllRegister();
+    // The thread that GDAL gives a spatial index needs memory of its own, and waits without end where there
+    // is little.
+    CPLSetConfigOption("OGR_GPKG_ALLOW_THREADED_RTREE", "NO");
+  });
   const auto handler = [](CPLErr severity, CPLErrorNum, const char* text) {
     auto* messages = static_cast<Messages*>(CPLGetErrorHandlerUserData());
     if (severity == CE_Failure || severity == CE_Fatal) keep(messages->errors, text);

@@ -20,6 +20,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
@@ -71,6 +72,24 @@ void sync_to_device(const fs::path& path, const std::string& target) {
     throw Error(ErrorCode::WriteFailed, target + ": cannot be flushed to the device (" +
                                             describe_errno(error) + "); nothing was left behind");
   }
+}
+
+Error exists_already(const std::string& target) {
+  return {ErrorCode::OutputExists,
+          target + ": exists already; choose another name or overwrite it with --overwrite"};
+}
+
+// False, and errno is set, if it did not work. Some file systems cannot look and rename in one step.
+bool give_name(const std::string& written, const std::string& target, Overwrite mode) {
+  if (mode == Overwrite::No) {
+    if (::renameat2(AT_FDCWD, written.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) == 0) return true;
+    if (errno != EINVAL && errno != ENOSYS) return false;
+    if (::access(target.c_str(), F_OK) == 0) {
+      errno = EEXIST;
+      return false;
+    }
+  }
+  return ::rename(written.c_str(), target.c_str()) == 0;
 }
 
 // What SQLite may leave beside a database when it is stopped.
@@ -135,7 +154,7 @@ std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
   }
   const std::scoped_lock lock(living().lock);
   if (fs::is_character_file(status) || fs::is_fifo(status)) {
-    outputs_.push_back({target, target});
+    outputs_.push_back({target, target, mode});
     return target;
   }
   const bool link = fs::is_symlink(fs::symlink_status(target, ignored));
@@ -146,12 +165,11 @@ std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
                                          "'; create it first, or choose another place");
   }
   if (fs::exists(status) && mode == Overwrite::No) {
-    throw Error(ErrorCode::OutputExists,
-                target + ": exists already; choose another name or overwrite it with --overwrite");
+    throw exists_already(target);
   }
   check_new(target);
   const std::string written = unused_path(path).string();
-  outputs_.push_back({path.string(), written});
+  outputs_.push_back({path.string(), written, mode});
   return written;
 }
 
@@ -180,7 +198,8 @@ void PendingOutputs::commit() {
   for (const std::string& stale : stale_) ::unlink(stale.c_str());
   for (Output& output : outputs_) {
     if (output.written == output.target) continue;
-    if (::rename(output.written.c_str(), output.target.c_str()) != 0) {
+    if (!give_name(output.written, output.target, output.mode)) {
+      if (errno == EEXIST) throw exists_already(output.target);
       throw Error(ErrorCode::WriteFailed, output.target + ": the finished file cannot be given its name (" +
                                               describe_errno(errno) + ")");
     }

@@ -54,7 +54,8 @@ void TextBlocks::fill() {
   bytes_read_ += static_cast<double>(got);
   // Compressed files may give less than was asked for before their end: the end is where nothing more comes.
   at_end_ = got == 0;
-  if (session.failed() || (at_end_ && bytes_read_ < size_)) {
+  const bool stopped = at_end_ && (bytes_read_ < size_ || VSIFEofL(file_.get()) == 0);
+  if (session.failed() || stopped) {
     throw Error(ErrorCode::Unreadable, name_ + " cannot be read to its end" + session.reason());
   }
 }

@@ -158,10 +158,11 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   RunOutputs outputs(output);
 
   progress.start_phase("read");
-  const MemoryEstimate estimate(config.memory_limit_bytes, config.labelling.order);
+  MemoryEstimate estimate(config);
   ReadOptions read_options = config.read;
   read_options.admit = [&estimate](std::size_t points) { estimate.require(points); };
   auto [read, plane, survey] = read_into_plane(config.points, config.lines, read_options, progress, memory);
+  if (plane.projected()) estimate.add_projection();
   estimate.require(survey.survey.points.xy.size() + read.breakline_vertices);
   report.notes = read.notes;
   report.input.vertices_inserted_on_lines = survey.vertices_inserted_on_lines;

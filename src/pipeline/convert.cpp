@@ -258,8 +258,9 @@ ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
       write_profile(job, *config.profile, result);
       break;
   }
-  outputs.commit();
   progress.advance(1);
+  if (config.announce) config.announce(result);
+  outputs.commit();
   return result;
 }
 

@@ -5,6 +5,7 @@
 //    them.
 // 2. Condition heights if asked to. Find the flow once; pits, network, catchments and paths are read off it.
 // 3. Write all layers aside, then the report; rename together.
+#include "base/printable.hpp"
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/drain_layers.hpp"
 #include "pipeline/flow_attributes.hpp"
@@ -249,6 +250,7 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   if (!config.conditioned_path.empty()) write_conditioned(loaded, config, outputs, progress);
   if (to_file) write_report(report_path, config.report_path, report);
   progress.check();
+  if (config.announce) config.announce(report);
   outputs.commit();
   return report;
 }
@@ -333,7 +335,7 @@ std::string to_text(const DrainReport& r) {
   row("valley edges that are not drawn", fmt::format("{}", c.undrawn_valley_edges));
   row("triangles with all corners on valleys", fmt::format("{}", c.triangles_on_valleys));
   row("flat triangles, flat edges", fmt::format("{}, {}", c.flat_triangles, c.flat_edges));
-  for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", note);
+  for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", printable(note));
   return text;
 }
 

@@ -1,7 +1,8 @@
 // Refuses, before the work starts, what the memory cannot hold.
 //
 // The figures are measured: peak memory of whole runs of 10^2, 3 x 10^5 and 10^6 random points to PLY is 52
-// MiB and 343 bytes a point at order 1 and below; at order 2 it is 1 500 bytes a point.
+// MiB and 343 bytes a point at order 1 and below; at order 2 it is 1 500 bytes a point. Longitudes and
+// latitudes take 499, so 150 more; a simplification that keeps most points takes 465, so 120 more.
 #include "pipeline/memory_estimate.hpp"
 
 #include "base/memory.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr std::size_t kBytesOfProgram = std::size_t{52} << 20U;
 constexpr std::size_t kBytesAVertex = 350;
 constexpr std::size_t kBytesAVertexAboveOrder1 = 1500;
+constexpr std::size_t kBytesToProject = 150;
+constexpr std::size_t kBytesToSimplify = 120;
 
 std::string in_mebibytes(std::size_t bytes) {
   return fmt::format("{} MiB", (bytes + 0xfffff) >> 20U);
@@ -24,17 +27,22 @@ std::string in_mebibytes(std::size_t bytes) {
 
 }  // namespace
 
-MemoryEstimate::MemoryEstimate(std::optional<std::size_t> limit, unsigned order)
-    : bytes_a_vertex_(order > 1 ? kBytesAVertexAboveOrder1 : kBytesAVertex) {
+MemoryEstimate::MemoryEstimate(const BuildConfig& config)
+    : bytes_a_vertex_(config.labelling.order > 1 ? kBytesAVertexAboveOrder1 : kBytesAVertex) {
+  if (config.max_error_m || config.max_points) bytes_a_vertex_ += kBytesToSimplify;
   // The program itself is there already.
   const MemoryRoom room = memory_room();
   const std::size_t whole = room.bytes + kBytesOfProgram;
   room_ = whole < room.bytes ? room.bytes : whole;
   limited_by_ = room.limited_by;
-  if (limit && *limit <= room_) {
-    room_ = *limit;
+  if (config.memory_limit_bytes && *config.memory_limit_bytes <= room_) {
+    room_ = *config.memory_limit_bytes;
     limited_by_ = "--memory-limit";
   }
+}
+
+void MemoryEstimate::add_projection() {
+  bytes_a_vertex_ += kBytesToProject;
 }
 
 void MemoryEstimate::require(std::size_t vertices) const {

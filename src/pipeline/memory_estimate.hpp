@@ -2,8 +2,9 @@
 
 /// Refuses, before the work starts, what the memory cannot hold.
 
+#include <thalweg/pipeline/build.hpp>
+
 #include <cstddef>
-#include <optional>
 #include <string>
 
 namespace thalweg {
@@ -12,8 +13,10 @@ namespace thalweg {
 /// cross, and at orders above 2.
 class MemoryEstimate {
  public:
-  /// Looks at what memory there is now. A limit is in bytes, an order as in LabellingConfig.
-  MemoryEstimate(std::optional<std::size_t> limit, unsigned order);
+  /// Looks at what memory there is now.
+  explicit MemoryEstimate(const BuildConfig& config);
+  /// The survey is projected to a plane, and keeps the coordinates that came in.
+  void add_projection();
   /// Throws: Error{OutOfMemory} if the limit or the machine cannot hold a run of so many vertices.
   void require(std::size_t vertices) const;
 

@@ -175,8 +175,9 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
     result.std_order = find_std_order_interval(orders, progress);
     result.worst_triangle = ground.tin.triangle(result.std_order->worst);
   }
-  outputs.commit();
   progress.advance(1);
+  if (config.announce) config.announce(result);
+  outputs.commit();
   return result;
 }
 

@@ -1,4 +1,5 @@
 // The report as JSON and as text. Both are views of the same struct; nothing is computed here.
+#include "base/printable.hpp"
 #include "pipeline/water_json.hpp"
 
 #include <thalweg/pipeline/report.hpp>
@@ -347,7 +348,7 @@ std::string to_text(const Report& r) {
                  "  total {:.2f}\n",
                  s.read, s.triangulate, s.simplify, s.orders, s.optimize, s.check, s.write, s.total);
   fmt::format_to(out, "  peak memory {:.0f} MiB\n", static_cast<double>(r.peak_memory_bytes) / 0x1p20);
-  for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", note);
+  for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", printable(note));
   return text;
 }
 

@@ -370,9 +370,9 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
   report.timings_s.total = run.watch.total();
   report.peak_memory_bytes = peak_memory_bytes();
   if (!run.outputs.report.empty()) write_text(run.outputs.report, run.output.report_path, to_json(report));
-  progress.check();
-  run.outputs.pending.commit();
   progress.advance(1);
+  if (run.output.announce) run.output.announce(report);
+  run.outputs.pending.commit();
 }
 
 }  // namespace thalweg

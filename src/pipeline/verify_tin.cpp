@@ -1,4 +1,5 @@
 // Files and claims for the verifier; nothing is decided here.
+#include "base/printable.hpp"
 #include "pipeline/plane.hpp"
 #include "pipeline/reference.hpp"
 #include "pipeline/verify_sources.hpp"
@@ -213,7 +214,7 @@ std::string to_text(const VerifyResult& result) {
     broken += f.verdict == Verdict::Broken ? 1 : 0;
     unchecked += f.verdict == Verdict::NotChecked ? 1 : 0;
     const std::string line =
-        fmt::format("{:<{}}  {:<11}  {}", f.claim, width, verdict_name(f.verdict), f.detail);
+        fmt::format("{:<{}}  {:<11}  {}", f.claim, width, verdict_name(f.verdict), printable(f.detail));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   text += fmt::format("{}: {} claims hold, {} broken, {} not checked\n", result.path,

@@ -33,8 +33,8 @@ void run_build(const CLI::App& command, BuildCommand& a) {
   config.points = std::move(points);
   config.output = a.output;
   config.output.path = a.files.back();
-  const Report report = build(config, progress_of(a.common));
-  print_report(report, a.common, config.output);
+  config.output.announce = report_printer(a.common, config.output);
+  build(config, progress_of(a.common));
 }
 
 }  // namespace

@@ -80,12 +80,14 @@ void run_convert(const CLI::App& command, ConvertArguments& a) {
     a.config.profile = ProfileConfig{parse_source(a.profile)};
   }
   if (raster) a.config.raster = a.raster;
-  const ConvertResult result = convert_tin(a.config, progress_of(a.common));
-  if (a.common.format == Format::Json) {
-    print(to_json(result));
-  } else if (a.common.quiet == 0) {
-    print(to_text(result));
-  }
+  a.config.announce = [&a](const ConvertResult& result) {
+    if (a.common.format == Format::Json) {
+      print(to_json(result));
+    } else if (a.common.quiet == 0) {
+      print(to_text(result));
+    }
+  };
+  convert_tin(a.config, progress_of(a.common));
 }
 
 }  // namespace

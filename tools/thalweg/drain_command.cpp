@@ -66,12 +66,14 @@ void add_drain_command(CLI::App& app) {
     if (a->seed_spacing > 0) a->config.seed_spacing_m = a->seed_spacing;
     if (a->min_area >= 0) a->config.min_area_m2 = a->min_area;
     a->config.condition = parse_condition(*command, a->condition, {"--conditioned"});
-    const DrainReport report = drain_tin(a->config, progress_of(a->common));
-    if (a->config.report_path == "-" || (a->common.quiet == 0 && a->common.format == Format::Json)) {
-      print(to_json(report));
-    } else if (a->common.quiet == 0) {
-      print(to_text(report));
-    }
+    a->config.announce = [&a](const DrainReport& report) {
+      if (a->config.report_path == "-" || (a->common.quiet == 0 && a->common.format == Format::Json)) {
+        print(to_json(report));
+      } else if (a->common.quiet == 0) {
+        print(to_text(report));
+      }
+    };
+    drain_tin(a->config, progress_of(a->common));
   });
 }
 

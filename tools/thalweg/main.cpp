@@ -1,4 +1,5 @@
 // The command line: parses, runs one subcommand, maps errors to one line and an exit status.
+#include "base/printable.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
 
@@ -17,6 +18,7 @@
 #include <regex>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -75,12 +77,15 @@ std::vector<std::string> normalise(int argc, char** argv) {
 }
 
 int fail(std::string_view code, std::string_view message, int status) {
-  std::string line(message);
-  for (char& c : line) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  std::fputs(fmt::format("ERROR {}: {}\n", code, line).c_str(), stderr);
+  std::fputs(fmt::format("ERROR {}: {}\n", code, printable(message)).c_str(), stderr);
   return status;
+}
+
+/// Whether it says that the system gives no more threads: in the words of the C++ library, or of TBB.
+bool lacks_threads(const std::exception& error) {
+  const auto* const system = dynamic_cast<const std::system_error*>(&error);
+  return (system != nullptr && system->code() == std::errc::resource_unavailable_try_again) ||
+         std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
 }
 
 /// Shows the names that an option takes, "{first,last}", and not what they stand for inside.
@@ -178,8 +183,8 @@ int main(int argc, char** argv) {
   using namespace thalweg;
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  cli::watch_signals();
   try {
+    cli::watch_signals();
     return cli::run(argc, argv);
   } catch (const Error& error) {
     const int status = error.code() == ErrorCode::Usage       ? cli::kUsage
@@ -191,8 +196,7 @@ int main(int argc, char** argv) {
     return cli::fail("out-of-memory", "the machine has not enough memory for this input; nothing was written",
                      cli::kFailed);
   } catch (const std::exception& error) {
-    // TBB's way to say that the system gives no more threads.
-    if (std::string_view(error.what()).find("pthread_create") != std::string_view::npos) {
+    if (cli::lacks_threads(error)) {
       return cli::fail(
           "out-of-memory",
           "the system gives no more threads: too little memory (ulimit -v) or too many processes "

@@ -32,8 +32,8 @@ void add_optimize_command(CLI::App& app) {
   command->callback([a, command] {
     a->config.labelling = parse_labelling(a->labelling);
     a->config.condition = parse_condition(*command, a->condition, {});
-    const Report report = optimize_tin(a->config, progress_of(a->common));
-    print_report(report, a->common, a->config.output);
+    a->config.output.announce = report_printer(a->common, a->config.output);
+    optimize_tin(a->config, progress_of(a->common));
   });
 }
 

@@ -57,12 +57,14 @@ void run_order(OrderArguments& a) {
   for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
   config.definition = parse_definition(a.definition);
   config.max_order = parse_max_order(a.order);
-  const OrderResult result = order_points(config, progress_of(a.common));
-  if (a.common.format == Format::Json) {
-    print(to_json(result));
-  } else if (a.common.quiet == 0 || !result.asked.empty() || config.census) {
-    print(to_text(result));
-  }
+  config.announce = [&a](const OrderResult& result) {
+    if (a.common.format == Format::Json) {
+      print(to_json(result));
+    } else if (a.common.quiet == 0 || !result.asked.empty() || a.config.census) {
+      print(to_text(result));
+    }
+  };
+  order_points(config, progress_of(a.common));
 }
 
 }  // namespace

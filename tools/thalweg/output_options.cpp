@@ -20,12 +20,12 @@ void add_output_options(CLI::App& command, OutputConfig& output) {
   command.add_option("--proof", output.proof_path, "a proof of the criteria's bounds, for thalweg verify");
 }
 
-void print_report(const Report& report, const Common& common, const OutputConfig& output) {
+std::function<void(const Report&)> report_printer(const Common& common, const OutputConfig& output) {
   if (output.report_path == "-" || (common.quiet == 0 && common.format == Format::Json)) {
-    print(to_json(report));
-  } else if (common.quiet == 0) {
-    print(to_text(report));
+    return [](const Report& report) { print(to_json(report)); };
   }
+  if (common.quiet == 0) return [](const Report& report) { print(to_text(report)); };
+  return {};
 }
 
 }  // namespace thalweg::cli

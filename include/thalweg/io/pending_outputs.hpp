@@ -34,14 +34,15 @@ class PendingOutputs {
   /// outputs. Throws: Error{OutputExists} if there is one and `mode` is No.
   void remove_stale(const std::string& target, Overwrite mode);
 
-  /// Flushes every added file to the device and renames it to its target.
-  /// Throws: Error{WriteFailed}, naming the file.
+  /// Flushes every added file to the device and renames it to its target. Throws: Error{WriteFailed},
+  /// naming the file; Error{OutputExists} if meanwhile there is one that was not to be overwritten.
   void commit();
 
  private:
   struct Output {
     std::string target;
     std::string written;  ///< the temporary path; the target itself for devices
+    Overwrite mode = Overwrite::No;
   };
   void check_new(const std::string& target) const;
 

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct OutputConfig {
   std::string problem_path;  ///< labelling problem, .cfn; empty: none
   std::string proof_path;    ///< proof of the criteria's bounds, for verify; empty: none
   std::string changes_path;  ///< layer of heights that conditioning changed, .gpkg; empty: none
+  /// Told the report when all files are whole, before they get their names: what it throws leaves none.
+  std::function<void(const Report&)> announce;
 };
 
 /// How the triangulation is chosen.

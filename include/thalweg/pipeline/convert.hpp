@@ -9,6 +9,7 @@
 #include <thalweg/terrain/sample_surface.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ struct ProfileConfig {
   SourceSpec lines;
 };
 
+struct ConvertResult;
+
 struct ConvertConfig {
   std::string input;
   std::string output;
@@ -45,6 +48,8 @@ struct ConvertConfig {
   std::optional<RasterConfig> raster;
   std::optional<ContourConfig> contours;
   std::optional<ProfileConfig> profile;
+  /// Told the result when the output is whole, before it gets its name: what it throws leaves none.
+  std::function<void(const ConvertResult&)> announce;
 };
 
 struct ConvertResult {

@@ -10,11 +10,14 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace thalweg {
+
+struct DrainReport;
 
 struct DrainConfig {
   std::string input;
@@ -29,6 +32,8 @@ struct DrainConfig {
   ConditionConfig condition;
   std::string mesh_path;         ///< mesh with attributes of flow, .nc or .gpkg; empty: none
   std::string conditioned_path;  ///< the TIN with its new heights, in a format by extension; empty: none
+  /// Told the report when all files are whole, before they get their names: what it throws leaves none.
+  std::function<void(const DrainReport&)> announce;
 };
 
 struct DrainReport {

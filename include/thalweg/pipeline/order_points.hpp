@@ -12,11 +12,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace thalweg {
+
+struct OrderResult;
 
 struct OrderConfig {
   std::vector<SourceSpec> points;  ///< x and y suffice
@@ -33,6 +36,8 @@ struct OrderConfig {
   std::string picture_path;         ///< .png, .svg or .pdf of the one triangle; empty: none
   bool census = false;              ///< count triangles and useful edges under every definition
   bool overwrite = false;
+  /// Told the result when all files are whole, before they get their names: what it throws leaves none.
+  std::function<void(const OrderResult&)> announce;
 };
 
 /// One triangle's answer.
