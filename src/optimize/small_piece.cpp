@@ -34,7 +34,6 @@ bool SmallPiece<Criteria>::solve(const Labelling<Criteria>& problem, const Reduc
   messages_.clear();
   one_.clear();
   table_entries_ = 0;
-  std::fill_n(first_message_.begin(), count_, kNone);
   for (std::uint32_t i = 0; i < count_; ++i) {
     fill_table(i);
     minimise_table(i);
@@ -90,7 +89,7 @@ bool SmallPiece<Criteria>::find_order(std::uint32_t width_limit) {
   };
   for (std::uint32_t v = 0; v < count_; ++v) update(v);
   width_ = 0;
-  std::array<Set, kMostVariables> met;  // by position, as variables
+  std::array<Set, kMostVariables> met;  // by step, as variables
   Set left = count_ == kMostVariables ? ~Set{0} : bit(count_) - 1;
   for (std::uint32_t i = 0; i < count_; ++i) {
     Set rest = left;
@@ -102,7 +101,7 @@ bool SmallPiece<Criteria>::find_order(std::uint32_t width_limit) {
     const Set row = met[i] = adjacent_[best];
     width_ = std::max(width_, static_cast<std::uint32_t>(std::popcount(row)));
     if (width_ > width_limit) return false;
-    order_[i] = best;
+    steps_[i] = {.variable = best};
     position_[best] = i;
     left &= ~bit(best);
     for (Set members = row; members != 0;) {
@@ -112,21 +111,19 @@ bool SmallPiece<Criteria>::find_order(std::uint32_t width_limit) {
     for (Set members = row; members != 0;) update(take_lowest(members));
   }
   for (std::uint32_t i = 0; i < count_; ++i) {
-    scope_[i] = 0;
-    for (Set members = met[i]; members != 0;) scope_[i] |= bit(position_[take_lowest(members)]);
+    for (Set members = met[i]; members != 0;) steps_[i].scope |= bit(position_[take_lowest(members)]);
   }
   return true;
 }
 
-/// Each pair to the one of its variables that is eliminated first, as positions.
+/// Each pair to the one of its variables that is eliminated first; its ends become steps.
 template <std::size_t Criteria>
 void SmallPiece<Criteria>::sort_pairs() {
-  std::fill_n(first_pair_.begin(), count_, kNone);
   for (std::uint32_t p = 0; p < pairs_.size(); ++p) {
     const auto [low, high] = std::minmax(position_[pairs_[p].a], position_[pairs_[p].b]);
     pairs_[p].a = low;
     pairs_[p].b = high;
-    pairs_[p].next = std::exchange(first_pair_[low], p);
+    pairs_[p].next = std::exchange(steps_[low].first_pair, p);
   }
 }
 
@@ -139,7 +136,7 @@ void SmallPiece<Criteria>::project(std::uint32_t i, Set from) {
   projection_[1] = 1;
   std::size_t known = 2;
   std::uint32_t shift = 2;
-  for (Set scope = scope_[i]; scope != 0; known *= 2) {
+  for (Set scope = steps_[i].scope; scope != 0; known *= 2) {
     const bool meant = (from & bit(take_lowest(scope))) != 0;
     for (std::size_t e = 0; e < known; ++e) projection_[known + e] = projection_[e] + (meant ? shift : 0);
     if (meant) shift *= 2;
@@ -148,17 +145,18 @@ void SmallPiece<Criteria>::project(std::uint32_t i, Set from) {
 
 template <std::size_t Criteria>
 void SmallPiece<Criteria>::fill_table(std::uint32_t i) {
-  const std::size_t size = std::size_t{2} << std::popcount(scope_[i]);
+  const Step& step = steps_[i];
+  const std::size_t size = std::size_t{2} << std::popcount(step.scope);
   table_entries_ += size;
   table_.assign(size, {});
-  for (std::size_t e = 1; e < size; e += 2) table_[e] = unary_[order_[i]];
-  for (std::uint32_t p = first_pair_[i]; p != kNone; p = pairs_[p].next) {
-    const std::size_t both = 1 | std::size_t{2} << std::popcount(scope_[i] & (bit(pairs_[p].b) - 1));
+  for (std::size_t e = 1; e < size; e += 2) table_[e] = unary_[step.variable];
+  for (std::uint32_t p = step.first_pair; p != kNone; p = pairs_[p].next) {
+    const std::size_t both = 1 | std::size_t{2} << std::popcount(step.scope & (bit(pairs_[p].b) - 1));
     for (std::size_t e = both; e < size; e = (e + 1) | both) add(table_[e], pairs_[p].weight);
   }
-  for (std::uint32_t sender = first_message_[i]; sender != kNone; sender = message_[sender].next) {
-    project(i, scope_[sender]);
-    const Cost<Criteria>* const message = messages_.data() + message_[sender].first;
+  for (std::uint32_t sender = step.first_sender; sender != kNone; sender = steps_[sender].next_sender) {
+    project(i, steps_[sender].scope);
+    const Cost<Criteria>* const message = messages_.data() + steps_[sender].first_entry;
     for (std::size_t e = 0; e < size; ++e) {
       for (std::size_t k = 0; k < Cost<Criteria>::kLevels; ++k) {
         table_[e].level[k] += message[projection_[e]].level[k];
@@ -169,26 +167,28 @@ void SmallPiece<Criteria>::fill_table(std::uint32_t i) {
 
 template <std::size_t Criteria>
 void SmallPiece<Criteria>::minimise_table(std::uint32_t i) {
-  message_[i] = {messages_.size(), kNone};
+  Step& step = steps_[i];
+  step.first_entry = messages_.size();
   for (std::size_t e = 0; e < table_.size(); e += 2) {
     const bool one = table_[e + 1] < table_[e];
     messages_.push_back(table_[e + (one ? 1 : 0)]);
     one_.push_back(one ? 1 : 0);
   }
-  if (scope_[i] == 0) return;
-  const auto receiver = static_cast<std::uint32_t>(std::countr_zero(scope_[i]));
-  message_[i].next = std::exchange(first_message_[receiver], i);
+  if (step.scope == 0) return;
+  const auto receiver = static_cast<std::uint32_t>(std::countr_zero(step.scope));
+  step.next_sender = std::exchange(steps_[receiver].first_sender, i);
 }
 
 template <std::size_t Criteria>
 void SmallPiece<Criteria>::trace_back() {
+  label_.resize(count_);
   for (std::uint32_t i = count_; i-- > 0;) {
     std::size_t e = 0;
     std::size_t place = 1;
-    for (Set scope = scope_[i]; scope != 0; place *= 2) {
-      e += label_[order_[take_lowest(scope)]] == Label::One ? place : 0;
+    for (Set scope = steps_[i].scope; scope != 0; place *= 2) {
+      e += label_[steps_[take_lowest(scope)].variable] == Label::One ? place : 0;
     }
-    label_[order_[i]] = one_[message_[i].first + e] != 0 ? Label::One : Label::Zero;
+    label_[steps_[i].variable] = one_[steps_[i].first_entry + e] != 0 ? Label::One : Label::Zero;
   }
 }
 

@@ -24,7 +24,7 @@ class SmallPiece {
   bool solve(const Labelling<Criteria>& problem, const Reduction& fixed, const Selection& selection,
              std::uint32_t width_limit);
   /// In the order of the selection; valid until the next call.
-  [[nodiscard]] std::span<const Label> label() const { return std::span(label_).first(count_); }
+  [[nodiscard]] std::span<const Label> label() const { return label_; }
   [[nodiscard]] std::uint32_t width() const { return width_; }
   [[nodiscard]] std::uint64_t table_entries() const { return table_entries_; }
 
@@ -35,9 +35,14 @@ class SmallPiece {
     Weight<Criteria> weight;
     std::uint32_t next;  ///< of the same bucket
   };
-  struct Message {
-    std::size_t first;   ///< of its entries
-    std::uint32_t next;  ///< position of the next sender to the same variable
+  /// The elimination of a variable.
+  struct Step {
+    Set scope = 0;                ///< the later steps that it meets
+    std::size_t first_entry = 0;  ///< of its message
+    std::uint32_t variable = 0;
+    std::uint32_t first_pair = kNone;
+    std::uint32_t first_sender = kNone;  ///< of messages to it: a step
+    std::uint32_t next_sender = kNone;   ///< to the receiver of its own
   };
 
   bool load(const Labelling<Criteria>& problem, const Reduction& fixed, const Selection& selection);
@@ -54,15 +59,12 @@ class SmallPiece {
   std::array<Cost<Criteria>, kMostVariables> unary_;
   std::array<Set, kMostVariables> adjacent_{};
   std::vector<Pair> pairs_;
-  // By position in the order of elimination: the variable, and the later ones that it meets, as positions.
-  std::array<std::uint32_t, kMostVariables> order_{}, position_{};
-  std::array<Set, kMostVariables> scope_{};
-  std::array<std::uint32_t, kMostVariables> first_pair_{}, first_message_{};
-  std::array<Message, kMostVariables> message_{};
+  std::array<Step, kMostVariables> steps_;
+  std::array<std::uint32_t, kMostVariables> position_{};  ///< by variable: its step
   std::vector<Cost<Criteria>> table_, messages_;
   std::vector<std::uint8_t> one_;  ///< by message entry: the better label
   std::vector<std::uint32_t> projection_;
-  std::array<Label, kMostVariables> label_{};
+  std::vector<Label> label_;
 };
 
 }  // namespace thalweg
