@@ -65,17 +65,22 @@ std::string name_of_geometry(OGRwkbGeometryType type) {
   return wkbFlatten(type) == wkbNone ? "no geometry" : OGRGeometryTypeToName(type);
 }
 
-GDALDatasetUniquePtr open_dataset(const std::string& path) {
+GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use) {
   GdalSession session;
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(
-      path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
+  const unsigned kinds = use == LayerUse::Points ? GDAL_OF_RASTER | GDAL_OF_VECTOR : GDAL_OF_VECTOR;
+  GDALDatasetUniquePtr dataset(
+      GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
   if (dataset) return dataset;
   VSIStatBufL stat;
   const bool names_a_file = path.find(':') == std::string::npos || path.front() == '/';
   if (names_a_file && VSIStatExL(path.c_str(), &stat, VSI_STAT_EXISTS_FLAG) != 0) {
     throw Error(ErrorCode::NotFound, path + ": there is no such file");
   }
-  throw Error(ErrorCode::Unreadable, path + " cannot be opened" + session.reason());
+  const bool is_csv = path.size() > 4 && EQUAL(path.c_str() + path.size() - 4, ".csv");
+  throw Error(
+      ErrorCode::Unreadable,
+      path + " cannot be opened" + session.reason() +
+          (is_csv ? "; lines in a .csv stand as WKT in a column of that name, beside another column" : ""));
 }
 
 OGRLayer& choose_layer(GDALDataset& dataset, const SourceSpec& source, LayerUse use) {

@@ -10,15 +10,15 @@
 
 namespace thalweg {
 
-/// Opens a file, virtual path or connection for reading, as a raster, as layers, or both.
-/// Throws: Error{NotFound}, Error{Unreadable} in GDAL's words.
-GDALDatasetUniquePtr open_dataset(const std::string& path);
-
 /// What a layer shall hold.
 enum class LayerUse {
   Points,
   Lines  ///< or polygons
 };
+
+/// Opens a file, virtual path or connection for reading, as layers, or, for points, as a raster too.
+/// Throws: Error{NotFound}, Error{Unreadable} in GDAL's words.
+GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use);
 
 /// The layer that the source names, or the only one that can hold what is wanted.
 /// Throws: Error{NotFound} if it is not there, Error{WrongGeometry} if it or none can hold what is wanted,

@@ -209,7 +209,7 @@ class LayerLines : public LayerReader {
 }  // namespace
 
 std::unique_ptr<SourceReader> open_lines(const LineSource& source) {
-  return std::make_unique<LayerLines>(source, open_dataset(source.source.path));
+  return std::make_unique<LayerLines>(source, open_dataset(source.source.path, LayerUse::Lines));
 }
 
 }  // namespace thalweg

@@ -50,7 +50,7 @@ std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const ReadOpti
   if (is_las(spec)) return open_las(spec);
   if (is_mesh(spec)) return open_mesh(spec, progress);
   if (is_text(spec)) return open_text(spec, options);
-  GDALDatasetUniquePtr dataset = open_dataset(spec.path);
+  GDALDatasetUniquePtr dataset = open_dataset(spec.path, LayerUse::Points);
   if (spec.layer.empty() && is_tin(*dataset)) {
     return open_layer_points({spec.path, "vertices"}, std::move(dataset));
   }

@@ -77,7 +77,8 @@ void note_antimeridian(const Terrain& terrain, const Plane& plane, Report& repor
   const auto [west, east] = std::minmax_element(terrain.written.begin(), terrain.written.end(), by_longitude);
   if (west == terrain.written.end() || east->x - west->x <= plane.x_period() / 2) return;
   report.notes.emplace_back(
-      "the TIN crosses the antimeridian: a mesh keeps the longitudes that came in, and QGIS and others draw its "
+      "the TIN crosses the antimeridian: a mesh keeps the longitudes that came in, and QGIS and others draw "
+      "its "
       "triangles there around the whole map; a projected CRS (--t-crs), longitudes from 0 to 360, or vector "
       "layers do not jump");
 }

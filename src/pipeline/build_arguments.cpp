@@ -19,9 +19,9 @@ void add_ground_options(CLI::App& command, BuildArguments& a) {
                                                                        {"mean", DuplicateRule::Mean}}))
       ->default_str("first");
   command.add_option("--snap", a.config.snap_m, "points nearer than this, in metres, count as duplicates")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command.add_option("--max-edge", a.max_edge_m, "drop rim triangles with a longer rim edge, metres")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command
       .add_option("--engine", a.config.ground.engine,
                   "who triangulates: our own, or CGAL as a check; the triangulation is the same")
@@ -40,7 +40,7 @@ void add_simplify_options(CLI::App& command, BuildArguments& a) {
   command
       .add_option("--max-error", a.max_error_m,
                   "simplify: fewest vertices from which no source point is vertically farther, metres")
-      ->check(CLI::NonNegativeNumber);
+      ->check(non_negative_number());
   command
       .add_option("--max-points", a.max_points,
                   "simplify: number of vertices, lines and outline included; the first limit reached stops")

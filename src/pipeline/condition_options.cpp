@@ -1,6 +1,8 @@
 // Options of what changes heights.
 #include "pipeline/condition_options.hpp"
 
+#include "pipeline/source_options.hpp"
+
 #include <thalweg/base/error.hpp>
 
 namespace thalweg::cli {
@@ -18,7 +20,7 @@ void add_condition_options(CLI::App& command, ConditionArguments& arguments, con
   command
       .add_option("--condition-max", arguments.max_m,
                   "no height changes by more, metres; what would need more is left")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->default_str("none");
 }
 

@@ -4,6 +4,7 @@
 #include <thalweg/base/error.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +18,24 @@ void add_lines(const std::vector<std::string>& files, EdgeKind kind, std::vector
 }
 
 }  // namespace
+
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool right = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0;
+            return right ? std::string() : "takes a number above 0, not '" + text + "'";
+          },
+          "ABOVE 0"};
+}
+
+CLI::Validator non_negative_number() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const bool right = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0;
+            return right ? std::string() : "takes a number from 0 on, not '" + text + "'";
+          },
+          "FROM 0"};
+}
 
 Box2 parse_box(const std::string& option, const std::string& text) {
   std::vector<double> numbers;

@@ -22,6 +22,9 @@ void add_source_options(CLI::App& command, SourceArguments& arguments, ReadOptio
 void add_crossing_option(CLI::App& command, GroundOptions& ground);
 /// Reads "xmin,ymin,xmax,ymax"; `option` is named in errors. Throws: Error{Usage}.
 Box2 parse_box(const std::string& option, const std::string& text);
+/// Checks of options: a finite number above 0; one that is not below it.
+CLI::Validator positive_number();
+CLI::Validator non_negative_number();
 /// Turns the names into sources. Throws: Error{Usage}.
 void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vector<LineSource>& lines);
 

@@ -47,7 +47,7 @@ try:
                            catchExceptions=False)
     print('finished')
 except Exception as error:
-    print('stopped', time.time() - stop.get('at', 0) < 1.5, error)
+    print('stopped', time.time() - stop.get('at', 0) < 1.5, round(time.time() - stop.get('at', 0), 2), error)
 print('left', sorted(os.listdir(os.path.dirname(sys.argv[2]))))
 """
 
@@ -169,6 +169,9 @@ def main():
         os.makedirs(folder, exist_ok=True)
         bench = Bench(binary, source, folder)
         bench.run(QGIS_PROCESS, "plugins", "enable", "thalweg_tin")
+        listed = pathlib.Path(source, "tools", "qgis", "CMakeLists.txt").read_text().split("set(files")[1].split(")")[0].split()
+        there = {path.name for path in pathlib.Path(source, "tools", "qgis", "thalweg_tin").iterdir() if path.is_file()}
+        bench.check("the zip holds all files", set(listed) == there, f"{sorted(listed)} {sorted(there)}")
         survey = pathlib.Path(source, "sample_terrains", "survey")
         subprocess.run(["ogr2ogr", f"{folder}/points.gpkg", str(survey / "points.csv"), "-oo", "X_POSSIBLE_NAMES=x", "-oo",
                         "Y_POSSIBLE_NAMES=y", "-oo", "AUTODETECT_TYPE=YES", "-a_srs", "EPSG:32632"], check=True)
@@ -225,7 +228,9 @@ def main():
                         "Y_POSSIBLE_NAMES=field_2", "-oo", "Z_POSSIBLE_NAMES=field_3"], check=True)
         os.makedirs(f"{folder}/stopped")
         _, text = bench.run(PYTHON, "-c", CANCEL, f"{folder}/many.gpkg", f"{folder}/stopped/tin.ply")
-        bench.check("cancel stops at once and leaves nothing", "stopped True" in text and "left []" in text, text)
+        seconds = re.search(r"stopped \w+ ([0-9.]+)", text)
+        bench.check(f"cancel stops after {seconds.group(1) if seconds else '?'} s and leaves nothing",
+                    "stopped True" in text and "left []" in text, text)
         _, text = bench.run(PYTHON, "-c", PROJECT, str(lines))
         for line in ("build True", "drain True", "crs {'EPSG:32632'}", "triangles shown True", "kinds ['Valleys', 'Ridges']",
                      "heights 400 521", "pits #0040ff True", "drawn [True, True, True] True"):

@@ -27,7 +27,7 @@ void add_raster_options(CLI::App& command, ConvertArguments& a) {
   command
       .add_option("--resolution", a.raster.resolution,
                   "raster: side of a cell, in units of the TIN's coordinates")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command.add_option("--extent", a.extent, "raster: xmin,ymin,xmax,ymax of its sides (default: the TIN's)");
   command.add_option("--surface", a.raster.value, "raster: elevation, hillshade, slope, aspect (degrees)")
       ->transform(
@@ -48,7 +48,7 @@ void add_contour_options(CLI::App& command, ConvertArguments& a) {
   command
       .add_option("--interval", a.contours.interval,
                   "contours: between heights, in the TIN's unit of heights")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->needs(contours);
   command.add_option("--base", a.contours.base, "contours: a height that is a contour's")->needs(contours);
   command.add_option("--field", a.contours.field, "contours: attribute with the height")

@@ -1,6 +1,7 @@
 // thalweg drain: pits, flow paths, network and catchments of a TIN.
 #include "command.hpp"
 #include "pipeline/condition_options.hpp"
+#include "pipeline/source_options.hpp"
 
 #include <thalweg/pipeline/drain.hpp>
 
@@ -38,12 +39,12 @@ void add_drain_command(CLI::App& app) {
   points("--outlets", a->outlets, "points where water leaves; repeatable");
   points("--seeds", a->seeds, "points from which flow paths are followed; repeatable");
   command->add_option("--seed-spacing", a->seed_spacing, "follow flow paths from a lattice, metres")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   command->add_option("--min-area", a->min_area, "least area that a reach of the network drains, m2")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->default_str("a thousandth of the TIN");
   command->add_option("--pass-pits", a->config.pass_pits_m, "pits at most so deep are full and spill, metres")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->default_str("0");
   add_condition_options(*command, a->condition,
                         "Heights change before all else; what is found and counted is of the changed TIN");

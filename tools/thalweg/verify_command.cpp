@@ -42,7 +42,7 @@ void add_verify_command(CLI::App& app) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_source_options(*command, a->sources, a->config.read);
-  command->add_option("--snap", a->config.snap_m, "as given to build, metres")->check(CLI::NonNegativeNumber);
+  command->add_option("--snap", a->config.snap_m, "as given to build, metres")->check(non_negative_number());
   add_common_options(*command, a->common);
   add_examples(*command, "  thalweg verify tin.ply --report report.json --points points.csv\n");
   command->callback([a] {
