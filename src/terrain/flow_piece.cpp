@@ -18,7 +18,9 @@ void PieceStore::Writer::make_room() {
     throw Error(ErrorCode::SizeLimit,
                 "the flow parts the TIN's edges into more than 2147483647 pieces; split the area");
   }
-  const Run run{LargePageAllocator<FlowPiece>().allocate(blocks * kBlock), blocks * kBlock};
+  // The first is a little too small for a large page: where few pieces come, none is cleared for them.
+  const std::size_t pieces = blocks * kBlock - (store_->used_ == 0 ? 1 : 0);
+  const Run run{LargePageAllocator<FlowPiece>().allocate(pieces), pieces};
   store_->runs_.push_back(run);
   for (std::size_t b = 0; b < blocks; ++b) store_->blocks_[store_->used_ + b] = run.memory + b * kBlock;
   std::copy(first_, next_, run.memory);

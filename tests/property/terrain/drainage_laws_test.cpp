@@ -12,7 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <span>
+#include <tuple>
 #include <vector>
 
 namespace thalweg {
@@ -169,6 +172,79 @@ TEST(NetworkLaws, AreasAddUpDownstream) {
       EXPECT_GE(reach.points.front().z, reach.points.back().z);
       EXPECT_GE(reach.strahler, 1U);
     }
+  }
+}
+
+void expect_same_ring(const CatchmentRing& a, const CatchmentRing& b, std::span<const VertexId> number) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_NEAR(a[i].xy.x, b[i].xy.x, 1e-9);  // triangles start at other corners
+    EXPECT_NEAR(a[i].xy.y, b[i].xy.y, 1e-9);
+    EXPECT_EQ(a[i].vertex.valid() ? number[a[i].vertex.index()] : VertexId{}, b[i].vertex);
+  }
+}
+
+// Whether the vertices' numbers are scattered over the plane, so that the flow takes its own, or run along it.
+TEST(DrainageLaws, NumbersOfVerticesDoNotMatter) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  constexpr std::size_t kCount = 60'000;
+  std::vector<Point2> points;
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    points.push_back({random.real(0, 1000), random.real(0, 1000)});
+    heights.push_back(10 * std::sin(points.back().x / 9) * std::cos(points.back().y / 13) +
+                      std::floor(random.real(0, 3)));
+  }
+  std::vector<std::size_t> order(kCount);
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(std::floor(points[a].x / 20), points[a].y) <
+           std::tuple(std::floor(points[b].x / 20), points[b].y);
+  });
+  std::vector<VertexId> number(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) number[order[i]] = VertexId{i};
+  Progress progress;
+  const Tin scattered = triangulate(points, heights, {}, progress);
+  const Tin along = scattered.renumbered(number, progress);
+  const SurfaceFlow flow(scattered, {}, progress), other(along, {}, progress);
+  ASSERT_EQ(flow.sinks().size(), other.sinks().size());
+  std::map<VertexId, std::uint32_t> sink_at;
+  for (std::size_t s = 0; s < other.sinks().size(); ++s) {
+    sink_at[other.sinks()[s].vertex] = static_cast<std::uint32_t>(s);
+  }
+  std::vector<std::uint32_t> group(flow.sinks().size()), other_group(group.size());
+  std::iota(other_group.begin(), other_group.end(), 0U);
+  for (std::size_t s = 0; s < group.size(); ++s) {
+    const Sink& sink = flow.sinks()[s];
+    group[s] = sink_at.at(number[sink.vertex.index()]);
+    EXPECT_EQ(sink.kind, other.sinks()[group[s]].kind);
+    EXPECT_NEAR(sink.area, other.sinks()[group[s]].area, 1e-9 * sink.area);
+  }
+  for (std::size_t v = 0; v < kCount; ++v) {
+    ASSERT_EQ(group[flow.sink_of(VertexId{v}).index()], other.sink_of(number[v]).value());
+  }
+  const PitTable table = tabulate_pits(flow, {}, progress), other_table = tabulate_pits(other, {}, progress);
+  ASSERT_EQ(table.pits.size(), other_table.pits.size());
+  EXPECT_NEAR(table.fill_volume_m3, other_table.fill_volume_m3, 1e-9 * table.fill_volume_m3);
+  const auto reaches = find_network(flow, let_spill(flow, table, 0.5), 500, progress);
+  EXPECT_EQ(reaches.size(), find_network(other, let_spill(other, other_table, 0.5), 500, progress).size());
+  EXPECT_GT(reaches.size(), 100U);
+  const auto catchments = outline_catchments(flow, group, progress);
+  const auto others = outline_catchments(other, other_group, progress);
+  ASSERT_EQ(catchments.size(), others.size());
+  for (std::size_t c = 0; c < catchments.size(); ++c) {
+    ASSERT_EQ(catchments[c].polygons.size(), others[c].polygons.size());
+    if (catchments[c].polygons.size() > 1) continue;  // their order is that of numbers
+    CatchmentRing ring = catchments[c].polygons[0].outer;
+    const VertexId start = others[c].polygons[0].outer.front().vertex;
+    std::rotate(ring.begin(),
+                std::find_if(ring.begin(), ring.end(),
+                             [&](const FlowPoint& p) {
+                               return p.vertex.valid() && number[p.vertex.index()] == start;
+                             }),
+                ring.end());
+    expect_same_ring(ring, others[c].polygons[0].outer, number);
   }
 }
 

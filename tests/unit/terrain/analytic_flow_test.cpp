@@ -1,4 +1,6 @@
 // Terrains whose flow is known.
+#include "terrain_scene.hpp"
+
 #include "support/meshes.hpp"
 
 #include <thalweg/terrain/catchments.hpp>
@@ -9,9 +11,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace thalweg {
@@ -51,6 +55,30 @@ SurfaceFlow flow_on(const Tin& tin) {
 PitTable pits_of(const SurfaceFlow& flow) {
   Progress progress;
   return tabulate_pits(flow, {}, progress);
+}
+
+double doubled_area(const CatchmentRing& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 p = ring[i].xy, q = ring[(i + 1) % ring.size()].xy;
+    sum += p.x * q.y - p.y * q.x;
+  }
+  return sum;
+}
+
+/// The polygons' areas are those of the sinks.
+void expect_catchments_tile(const SurfaceFlow& flow) {
+  Progress progress;
+  std::vector<std::uint32_t> group(flow.sinks().size());
+  std::iota(group.begin(), group.end(), 0U);
+  std::vector<double> area(group.size(), 0);
+  for (const Catchment& catchment : outline_catchments(flow, group, progress)) {
+    for (const CatchmentPolygon& polygon : catchment.polygons) {
+      area[catchment.group] += doubled_area(polygon.outer) / 2;
+      for (const CatchmentRing& hole : polygon.holes) area[catchment.group] += doubled_area(hole) / 2;
+    }
+  }
+  for (std::size_t s = 0; s < area.size(); ++s) EXPECT_NEAR(area[s], flow.sinks()[s].area, 1e-9) << s;
 }
 
 TEST(AnalyticFlow, ATiltedPlaneDrainsInStraightLines) {
@@ -156,6 +184,58 @@ TEST(AnalyticFlow, ACraterLakeSpillsAtTheNotch) {
   EXPECT_EQ(lake.spill_vertex, at(10, 6, 0));
   EXPECT_EQ(lake.depth_m, 3.5);
   EXPECT_FALSE(lake.spills_into.has_value());
+}
+
+TEST(AnalyticFlow, ADivideThatComesToAVertexEndsThere) {
+  // The line between the grounds of two channels meets the end of a side that it crosses.
+  constexpr std::array<double, 36> kHeights = {
+      2, 5, 9,  11, 14, 21, 4, 7, 8,  15, 17, 19, 3, 8,  9,  14, 17, 23,  //
+      3, 7, 12, 14, 18, 21, 4, 8, 15, 18, 19, 24, 9, 12, 14, 17, 23, 27};
+  const Tin tin = test::grid_tin(
+      6, 6, [&](double x, double y) { return kHeights[static_cast<std::size_t>(6 * y + x)]; });
+  const SurfaceFlow flow = flow_on(tin);
+  EXPECT_NEAR(flow.sinks()[0].area, 145.0 / 9, 1e-12);
+  EXPECT_NEAR(flow.sinks()[1].area, 80.0 / 9, 1e-12);
+  expect_catchments_tile(flow);
+}
+
+TEST(AnalyticFlow, TrianglesThatHandWaterRoundACircleAreParted) {
+  // A twisted ring of triangles, each of which drains over a side into the next; in the middle a pit.
+  constexpr std::size_t kSides = 8;
+  std::vector<Point2> points = {{0, 0}};
+  std::vector<double> heights = {-5};
+  for (std::size_t i = 0; i < 2 * kSides; ++i) {
+    const bool inner = i < kSides;
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(i % kSides) + (inner ? 0 : 0.5)) / kSides;
+    const double radius = inner ? 1 : 1.5;
+    points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    heights.push_back(inner ? 0 : 10);
+  }
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < kSides; ++i) {
+    const std::size_t a = 1 + i, next_a = 1 + (i + 1) % kSides, b = a + kSides, next_b = next_a + kSides;
+    triangles.push_back(test::triangle(a, b, next_b));
+    triangles.push_back(test::triangle(a, next_b, next_a));
+    triangles.push_back(test::triangle(0, a, next_a));
+  }
+  const Tin tin = test::make_tin(std::move(points), std::move(triangles), {}, std::move(heights));
+  const SurfaceFlow flow = flow_on(tin);
+  EXPECT_EQ(flow.broken_cycles(), 1U);
+  ASSERT_EQ(pits_of(flow).pits.size(), 1U);
+  double sum = 0;
+  for (const Sink& sink : flow.sinks()) sum += sink.area;
+  EXPECT_NEAR(sum, measure(tin).area_m2, 1e-9);
+  expect_catchments_tile(flow);
+  for (std::size_t t = 0; t < tin.triangle_count(); ++t) {
+    const Triangle& c = tin.triangle(TriangleId{t});
+    const Point2 middle{(tin.point(c[0]).x + tin.point(c[1]).x + tin.point(c[2]).x) / 3,
+                        (tin.point(c[0]).y + tin.point(c[1]).y + tin.point(c[2]).y) / 3};
+    EXPECT_EQ(flow.path_from(TriangleId{t}, middle).sink, flow.sink_of(VertexId{0}));
+  }
+  Progress progress;
+  const Spilling spilling = let_spill(flow, pits_of(flow), 0);
+  for (const Reach& reach : find_network(flow, spilling, 0, progress)) EXPECT_GT(reach.area, 0);
 }
 
 }  // namespace
