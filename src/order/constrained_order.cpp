@@ -23,7 +23,7 @@
 //    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
 // 8. Of order 0 or 1, SeesVtx counts what SeesTriang does, and SeesOpp what ConfEdge does (Lemmas 5 and 6).
 //    So up to a limit of 1 the corners' views decide these, too; a vertex that an end of a side sees, and not
-//    the corner opposite, is asked for the side.
+//    the corner opposite, is asked for the side. Above it they tell that there are too many.
 #include "order/corner_views.hpp"
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
@@ -65,6 +65,11 @@ namespace {
 
 /// Vertices inside up to which pairs are tested; the experiment: tests/bench/order/sweeps.md.
 constexpr std::size_t kMostPairs = 256;
+
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+/// Of a flood: what most discs of low order hold. Where they hold more, the corners' views may be far fewer.
+constexpr std::size_t kFewFaces = 20;
 
 /// Up to this limit the list of what is counted is searched.
 constexpr std::size_t kMostSearched = 64;
@@ -173,15 +178,26 @@ void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
   });
 }
 
-// As count, by what the corners see. False if that takes too long, or does not help.
+bool ConstrainedOrder::views_help(OrderDefinition definition, std::size_t limit) const {
+  switch (definition) {
+    case OrderDefinition::SeesOpp:
+    case OrderDefinition::Sees3vtx:
+    case OrderDefinition::EmptyQuad:
+      return parts_->ground.any_blocks();
+    case OrderDefinition::SeesVtx:
+      return parts_->ground.any_blocks() && limit <= kMostSearched;
+    default:
+      return false;
+  }
+}
+
+// As count, by what the corners see. False if that takes too long.
 bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                                       OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
   auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
-  if (!ground.any_blocks()) return false;
-  const bool vtx = definition == OrderDefinition::SeesVtx, opp = definition == OrderDefinition::SeesOpp;
+  const bool vtx = definition == OrderDefinition::SeesVtx;
   const bool fewer = definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad;
-  if (!opp && !fewer && !(vtx && limit <= kMostSearched)) return false;
   counted.clear();
   views.start(ground, corners,
               vtx ? detail::CornerViews::Eyes::AllCorners : detail::CornerViews::Eyes::Opposite);
@@ -198,53 +214,69 @@ bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition d
   return !views.gave_up();
 }
 
-// Leaves the vertices counted in the workspace; stops when there are more than `limit`.
-void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
-                             OrderWorkspace& workspace) const {
+// As count, by a flood from a face that the triangle overlaps. False if that takes more faces.
+bool ConstrainedOrder::count_by_flood(const Triangle& corners, TriangleId start, OrderDefinition definition,
+                                      const FloodLimits& limits, OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
   auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
   undecided.clear();
-  const Triangle corners = counter_clockwise(ground, triangle);
-  if (limit <= 1) definition = same_up_to_one(definition);
-  if (count_by_views(corners, definition, limit, workspace)) return;
   counted.clear();
-  if (definition == OrderDefinition::Std && parts_->grid) return count_in_grid(corners, limit, counted);
-  const auto start = ground.face_in_angle(corners[0], corners[1], corners[2]);
-  THALWEG_ASSERT(start.has_value());
-  if (!start) return;
   const bool all = definition == OrderDefinition::Std || !ground.any_blocks();
-  flood.start(ground, corners, Tin::triangle_of(*start),
-              all ? detail::Barrier::None : detail::Barrier::BlockingEdges);
+  flood.start(ground, corners, start, all ? detail::Barrier::None : detail::Barrier::BlockingEdges);
   const bool may_sweep = !all && definition != OrderDefinition::Pathcon;
-  while (const auto p = flood.next()) {
+  while (const auto p = flood.next(limits.faces)) {
     if (may_sweep && flood.inside().size() > kMostPairs) {
-      while (flood.next()) {
+      while (flood.next(kUnlimited)) {
       }
-      const auto found = sweeps.count(ground, corners, Tin::triangle_of(*start), definition, flood);
+      const auto found = sweeps.count(ground, corners, start, definition, flood);
       counted.assign(found.begin(), found.end());
-      return;
+      return true;
     }
     if (counts_alone(ground, corners, *p, definition, side_sight, occupancy)) {
       counted.push_back(*p);
-      if (counted.size() > limit) return;
+      if (counted.size() > limits.counted) return true;
     } else {
       undecided.push_back(*p);
     }
   }
-  if (definition != OrderDefinition::ConfEdge) return;
+  if (!flood.ended()) return false;
+  if (definition != OrderDefinition::ConfEdge) return true;
   for (const VertexId p : undecided) {
     const VertexId opposite = side_of(ground, corners, p).w;
     const bool conflicts = std::any_of(flood.inside().begin(), flood.inside().end(), [&](VertexId r) {
       return side_of(ground, corners, r).w != opposite && ground.sees(p, r);
     });
     if (conflicts) counted.push_back(p);
-    if (counted.size() > limit) return;
+    if (counted.size() > limits.counted) return true;
   }
+  return true;
+}
+
+// Leaves the vertices counted in the workspace; stops when there are more than `limit`.
+void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
+                             OrderWorkspace& workspace) const {
+  const Ground& ground = parts_->ground;
+  const Triangle corners = counter_clockwise(ground, triangle);
+  std::vector<VertexId>& counted = workspace.parts_->counted;
+  counted.clear();
+  if (definition == OrderDefinition::Std && parts_->grid) return count_in_grid(corners, limit, counted);
+  const auto start = ground.face_in_angle(corners[0], corners[1], corners[2]);
+  THALWEG_ASSERT(start.has_value());
+  if (!start) return;
+  const TriangleId face = Tin::triangle_of(*start);
+  const OrderDefinition weaker = same_up_to_one(definition);
+  const bool same = weaker == definition || limit <= 1;
+  if (same) definition = weaker;
+  if (views_help(weaker, limit) && (same || limit != kUnlimited)) {
+    if (count_by_flood(corners, face, definition, {limit, kFewFaces}, workspace)) return;
+    if (count_by_views(corners, weaker, limit, workspace) && (same || counted.size() > limit)) return;
+  }
+  count_by_flood(corners, face, definition, {limit, kUnlimited}, workspace);
 }
 
 std::size_t ConstrainedOrder::order(const Triangle& triangle, OrderDefinition definition,
                                     OrderWorkspace& workspace) const {
-  count(triangle, definition, std::numeric_limits<std::size_t>::max(), workspace);
+  count(triangle, definition, kUnlimited, workspace);
   return workspace.parts_->counted.size();
 }
 
@@ -262,7 +294,7 @@ std::optional<std::size_t> ConstrainedOrder::order_up_to(const Triangle& triangl
 
 std::vector<VertexId> ConstrainedOrder::counted(const Triangle& triangle, OrderDefinition definition,
                                                 OrderWorkspace& workspace) const {
-  count(triangle, definition, std::numeric_limits<std::size_t>::max(), workspace);
+  count(triangle, definition, kUnlimited, workspace);
   std::vector<VertexId> vertices = workspace.parts_->counted;
   std::sort(vertices.begin(), vertices.end());
   return vertices;

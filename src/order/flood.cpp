@@ -26,15 +26,16 @@ void Flood::start(const Ground& ground, const Triangle& corners, TriangleId face
   pending_.clear();
   inside_.clear();
   barriers_.clear();
-  yielded_ = 0;
+  yielded_ = spread_ = 0;
   for (const VertexId corner : corners) sides_.insert(corner.value(), 1);
   enter(face.value());
 }
 
-std::optional<VertexId> Flood::next() {
+std::optional<VertexId> Flood::next(std::size_t most_faces) {
   const std::size_t triangles = ground_->tin().triangle_count();
   while (yielded_ == inside_.size()) {
-    if (pending_.empty()) return std::nullopt;
+    if (pending_.empty() || spread_ == most_faces) return std::nullopt;
+    ++spread_;
     const std::uint32_t face = pending_.back();
     pending_.pop_back();
     if (face < triangles) {

@@ -7,6 +7,7 @@
 #include "order/stamped_map.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,8 +27,10 @@ class Flood {
   /// Starts at a face of the ground that overlaps the interior of `corners`.
   /// Pre: corners counter-clockwise, a valid triangle.
   void start(const Ground& ground, const Triangle& corners, TriangleId face, Barrier barrier);
-  /// The next vertex inside, or none when the flood has ended. Each comes once; corners never come.
-  std::optional<VertexId> next();
+  /// The next vertex inside, or none when the flood has ended, or entered `most_faces` in all. Each comes once;
+  /// corners never come.
+  std::optional<VertexId> next(std::size_t most_faces = std::numeric_limits<std::size_t>::max());
+  [[nodiscard]] bool ended() const { return pending_.empty() && yielded_ == inside_.size(); }
   /// All vertices that have come so far.
   [[nodiscard]] std::span<const VertexId> inside() const { return inside_; }
   /// The blocking edges met so far, each once or twice (from both sides); with Barrier::None those of all
@@ -49,6 +52,7 @@ class Flood {
   std::vector<std::uint32_t> pending_;
   std::vector<VertexId> inside_;
   std::size_t yielded_ = 0;
+  std::size_t spread_ = 0;  ///< faces
   std::vector<HalfedgeId> barriers_;
 };
 

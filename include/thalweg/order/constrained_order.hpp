@@ -110,6 +110,12 @@ class ConstrainedOrder {
   struct Parts;
   void count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
              OrderWorkspace& workspace) const;
+  struct FloodLimits {
+    std::size_t counted, faces;
+  };
+  bool count_by_flood(const Triangle& corners, TriangleId start, OrderDefinition definition,
+                      const FloodLimits& limits, OrderWorkspace& workspace) const;
+  [[nodiscard]] bool views_help(OrderDefinition definition, std::size_t limit) const;
   bool count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                       OrderWorkspace& workspace) const;
   void count_in_grid(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
