@@ -13,9 +13,9 @@
 
 namespace thalweg {
 
-/// Calls `make(begin, end, slot)` for blocks of at most `block` indices that tile [0, count), in parallel, and
-/// `take(begin, end, slot)` with what it made of each, one after the other in the order of the blocks. A slot
-/// serves one block after another. Cancel is checked before each block. Exceptions reach the caller.
+/// Calls `make(begin, end, slot)` for blocks of at most `block` indices that tile [0, count), in parallel,
+/// and `take(begin, end, slot)` with what it made of each, one after the other in the order of the blocks. A
+/// slot serves one block after another. Cancel is checked before each block. Exceptions reach the caller.
 template <class Slot, class Make, class Take>
 void for_each_block_in_order(std::size_t count, std::size_t block, const Progress& progress, const Make& make,
                              const Take& take) {
@@ -25,22 +25,21 @@ void for_each_block_in_order(std::size_t count, std::size_t block, const Progres
   // Blocks end in order, and no more are under way than there are slots, so the slot of a block is free.
   std::vector<Slot> slots(std::min(tokens, blocks));
   std::size_t next = 0;
-  const auto count_up = tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
-                                                            [&](tbb::flow_control& control) {
-                                                              if (next < blocks) return next++;
-                                                              control.stop();
-                                                              return next;
-                                                            });
+  const auto count_up =
+      tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) {
+        if (next < blocks) return next++;
+        control.stop();
+        return next;
+      });
   const auto make_block =
       tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, [&](std::size_t b) {
         progress.check();
         make(b * block, std::min(count, (b + 1) * block), slots[b % slots.size()]);
         return b;
       });
-  const auto take_block =
-      tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, [&](std::size_t b) {
-        take(b * block, std::min(count, (b + 1) * block), slots[b % slots.size()]);
-      });
+  const auto take_block = tbb::make_filter<std::size_t, void>(
+      tbb::filter_mode::serial_in_order,
+      [&](std::size_t b) { take(b * block, std::min(count, (b + 1) * block), slots[b % slots.size()]); });
   tbb::parallel_pipeline(slots.size(), count_up & make_block & take_block);
 }
 

@@ -1,8 +1,8 @@
 // Choosing the writer of a TIN, and the CRS sidecar.
 //
 // A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a
-// NAME.prj that lies there already would be taken for its own: it has to go. One that says the same, as that of
-// NAME in another format does, stays.
+// NAME.prj that lies there already would be taken for its own: it has to go. One that says the same, as that
+// of NAME in another format does, stays.
 #include "io/file_content.hpp"
 #include "io/file_writer.hpp"
 #include "io/gdal_session.hpp"

@@ -1,7 +1,8 @@
 // Reduce, split, solve the pieces one by one, add up what they leave open.
 //
 // Pieces share no term and no block, so labels of different pieces may be put together, and gaps between
-// value and bound add up. Most pieces are small and have a solver of their own. Large pieces go first, each as a task of its own; small ones follow in batches.
+// value and bound add up. Most pieces are small and have a solver of their own. Large pieces go first, each
+// as a task of its own; small ones follow in batches.
 #include "optimize/decomposition.hpp"
 
 #include "base/parallel.hpp"

@@ -85,7 +85,9 @@ class Reducer {
     for_each_block(problem_.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t q = begin; q < end; ++q) {
         const Label label = verdict(static_cast<std::uint32_t>(q));
-        queued_[q] = label == Label::Zero ? Queued::ForZero : label == Label::One ? Queued::ForOne : Queued::No;
+        queued_[q] = label == Label::Zero  ? Queued::ForZero
+                     : label == Label::One ? Queued::ForOne
+                                           : Queued::No;
       }
     });
     for (std::uint32_t q = 0; q < queued_.size(); ++q) {
@@ -105,7 +107,7 @@ class Reducer {
       const std::uint32_t q = work_[i];
       const Queued queued = std::exchange(queued_[q], Queued::No);
       if (out_.label[q] != Label::Open) continue;
-      const Label label = queued == Queued::ForZero ? Label::Zero
+      const Label label = queued == Queued::ForZero  ? Label::Zero
                           : queued == Queued::ForOne ? Label::One
                                                      : verdict(q);
       if (label == Label::Open) continue;

@@ -60,9 +60,8 @@ class CornerOrder {
     if (items.size() < 2) return;
     keys.clear();
     for (const std::uint32_t q : items) keys.emplace_back(lowest_[q], q);
-    if (keys.size() > kFew && std::ranges::all_of(keys, [&](const Key& key) {
-          return key.first.x == keys.front().first.x;
-        })) {
+    if (keys.size() > kFew &&
+        std::ranges::all_of(keys, [&](const Key& key) { return key.first.x == keys.front().first.x; })) {
       sort_column(keys);
     } else {
       sort_keys(keys);

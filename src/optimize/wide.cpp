@@ -1,8 +1,8 @@
 // Between a labelling and a bound.
 //
 // 1. Start: of labels 0 throughout, which are the best where nothing is gained, those of a relaxation
-//    (relaxation.cpp), and those known before, the ones that cost least; where labels fail a cut, all links of
-//    that cut are chosen.
+//    (relaxation.cpp), and those known before, the ones that cost least; where labels fail a cut, all links
+//    of that cut are chosen.
 // 2. Improve: keep the labels of a set of variables without which the problem is narrow, and find the best
 // labels of
 //    all others together, exactly. The variables that were kept least often are kept next, so that each

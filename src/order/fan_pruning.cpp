@@ -34,8 +34,8 @@ void FanSearch::list_certain(const Range& range) {
   }
 }
 
-// Goes from the range, which is to the right or the left of what follows, round to what lies farther, with the
-// nearest stop so far.
+// Goes from the range, which is to the right or the left of what follows, round to what lies farther, with
+// the nearest stop so far.
 void FanSearch::list_certain_beside(const Range& range, Role of) {
   const bool leftwards = of == Role::Right;
   const double free = range.role == of ? kLeastAngle : -1;

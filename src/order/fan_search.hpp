@@ -99,13 +99,13 @@ class FanSearch {
   FanPruning pruning_ = FanPruning::None;
   std::vector<HalfedgeId> fans_;  ///< the first halfedge of each that is left
   bool closed_ = false;
-  bool narrow_ = false;         ///< no two pieces of a disc through u can lie in the fan
-  double breadth_ = 0;          ///< radians
-  double scale_ = 1;            ///< the distance of the nearest neighbour in the fan
-  double far_ = 0;              ///< from where on disc_depth.cpp may be too coarse
-  Direction first_;             ///< unit vector of the fan's first direction
-  bool counting_ = false;       ///< whether depth_ is kept
-  bool tabled_ = false;         ///< whether it decides
+  bool narrow_ = false;    ///< no two pieces of a disc through u can lie in the fan
+  double breadth_ = 0;     ///< radians
+  double scale_ = 1;       ///< the distance of the nearest neighbour in the fan
+  double far_ = 0;         ///< from where on disc_depth.cpp may be too coarse
+  Direction first_;        ///< unit vector of the fan's first direction
+  bool counting_ = false;  ///< whether depth_ is kept
+  bool tabled_ = false;    ///< whether it decides
   DiscDepth depth_;
   StampedMap counted_;     ///< vertices in depth_
   std::vector<Gap> gaps_;  ///< a heap by distance; with `tabled_` all so far

@@ -13,8 +13,8 @@ namespace thalweg::detail {
 
 struct FanTypes {
   static constexpr double kNoStop = std::numeric_limits<double>::infinity();
-  /// A vertex seen, relative to u. With NearEnds, what ends certainty about vertices farther round than it, or
-  /// than the gap that follows it: for all that lie farther than a stop over kReach.
+  /// A vertex seen, relative to u. With NearEnds, what ends certainty about vertices farther round than it,
+  /// or than the gap that follows it: for all that lie farther than a stop over kReach.
   struct Seen {
     VertexId vertex;
     double x = 0, y = 0;
@@ -33,11 +33,11 @@ struct FanTypes {
   /// The directions between two neighbours in the view, or that of one, and the positions in it at some
   /// distance or farther, as the corners of a triangle with u that holds them all after inversion.
   struct Range {
-    std::uint32_t right = 0, left = 0;        ///< of those seen
-    double right_turn = 0, left_turn = 0;     ///< theirs
-    Direction to_right = {}, to_left = {};    ///< unit vectors
-    Direction right_at = {}, left_at = {};    ///< the corners
-    double horizon = 0;                       ///< what lies nearer is known
+    std::uint32_t right = 0, left = 0;      ///< of those seen
+    double right_turn = 0, left_turn = 0;   ///< theirs
+    Direction to_right = {}, to_left = {};  ///< unit vectors
+    Direction right_at = {}, left_at = {};  ///< the corners
+    double horizon = 0;                     ///< what lies nearer is known
     double slack = 0;
     Role role = Role::Any;
   };

@@ -74,7 +74,8 @@ class BorderFinder {
   }
 
  private:
-  static constexpr std::uint32_t kSeveral = kOutside - 1;  // as a group no more than a guess: one looks closer
+  static constexpr std::uint32_t kSeveral =
+      kOutside - 1;  // as a group no more than a guess: one looks closer
 
   [[nodiscard]] std::uint32_t group_of(TriangleId t) const {
     const std::uint32_t sink = graph_.only_sink[t.index()];

@@ -32,8 +32,8 @@ struct CatchmentBorders {
     const auto n = static_cast<std::uint32_t>(graph.mesh.vertex_count());
     if (number >= n) __builtin_prefetch(graph.pieces.at(number - n));
   }
-  /// What puts points into an order that depends on the TIN alone: vertices by its numbers, then ends of pieces
-  /// by its halfedges.
+  /// What puts points into an order that depends on the TIN alone: vertices by its numbers, then ends of
+  /// pieces by its halfedges.
   [[nodiscard]] std::uint64_t rank(const FlowGraph& graph, std::uint32_t number) const {
     const auto n = static_cast<std::uint32_t>(graph.mesh.vertex_count());
     if (number < n) return std::uint64_t{graph.mesh.given(VertexId{number}).value()} << 32U;

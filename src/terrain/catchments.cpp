@@ -177,8 +177,8 @@ std::vector<std::size_t> sort_by_group(LargeVector<BorderSegment>& segments,
   std::vector<std::uint32_t> number(plain ? groups.back() + 1 : groups.size(), kUnseen);
   const auto number_of = [&](std::uint32_t group) -> std::uint32_t& {
     return number[plain ? group
-                        : static_cast<std::size_t>(
-                              std::lower_bound(groups.begin(), groups.end(), group) - groups.begin())];
+                        : static_cast<std::size_t>(std::lower_bound(groups.begin(), groups.end(), group) -
+                                                   groups.begin())];
   };
   std::vector<std::size_t> first(1, 0);
   for (const BorderSegment& s : segments) {
@@ -218,7 +218,8 @@ std::vector<Catchment> outline_catchments(const SurfaceFlow& flow,
   for_each_block(catchments.size(), kGroups, progress, {0.6, 1}, [&](std::size_t begin, std::size_t end) {
     Chainer chainer(graph, borders);
     for (std::size_t g = begin; g < end; ++g) {
-      catchments[g] = chainer.chain(std::span<const BorderSegment>(borders.segments).subspan(first[g], first[g + 1] - first[g]));
+      catchments[g] = chainer.chain(
+          std::span<const BorderSegment>(borders.segments).subspan(first[g], first[g + 1] - first[g]));
     }
   });
   std::erase_if(catchments, [](const Catchment& catchment) { return catchment.polygons.empty(); });

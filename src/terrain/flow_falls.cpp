@@ -1,12 +1,14 @@
 // How triangles fall.
 //
-// 1. Triangles in batches: loops over columns, without branches, give for each side the sign of its fall where
+// 1. Triangles in batches: loops over columns, without branches, give for each side the sign of its fall
+// where
 //    rounding cannot change it, where the line of flow through the middle corner meets the side across, and
 //    the squares of the slopes of the triangle and its sides. As in the scalar functions, of which these are
 //    copies, all operations are rounded correctly and none is fused, so the bits are the same.
 // 2. Triangles with a side that is not sure, or level, are looked at one by one, by the exact predicate.
 // 3. The steepest way down from each vertex is chosen in the order of triangles: an edge, or the line of flow
-//    of a triangle over both of whose sides at the vertex water enters. Ties: the end that is first by (x, y).
+//    of a triangle over both of whose sides at the vertex water enters. Ties: the end that is first by (x,
+//    y).
 #include "base/ordered_blocks.hpp"
 #include "terrain/flow_graph.hpp"
 
@@ -22,7 +24,7 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;
 constexpr std::size_t kBatch = 128;  // columns of a page each would share the cache's sets
-constexpr double kNone = -2;     // a squared slope that is less than that of no step
+constexpr double kNone = -2;         // a squared slope that is less than that of no step
 using Column = std::array<double, kBatch>;
 
 /// Triangles with corners a, b, c; sides are ab, bc, ca.

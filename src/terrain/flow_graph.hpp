@@ -79,7 +79,7 @@ struct FlowGraph {
   LargeVector<std::uint32_t> rim_sink;  ///< by vertex on the rim: of what leaves there
   std::vector<Sink> sinks;
   LargeVector<std::uint32_t> sink_of_node;
-  LargeVector<double> ground;  ///< by node: the area of the ground whose water comes to it first
+  LargeVector<double> ground;            ///< by node: the area of the ground whose water comes to it first
   LargeVector<std::uint32_t> only_sink;  ///< by triangle: of all its water, or kSeveralSinks
   static constexpr std::uint32_t kSeveralSinks = SinkId::kInvalid - 1;
 
@@ -90,7 +90,9 @@ struct FlowGraph {
   // Channels that the falls make, vertices, channels that break cycles.
   [[nodiscard]] std::size_t node_count() const { return channels.size() + mesh.vertex_count(); }
   [[nodiscard]] std::size_t first_vertex() const { return channels.size() - broken_cycles; }
-  [[nodiscard]] FlowNode node_of(VertexId v) const { return static_cast<FlowNode>(first_vertex() + v.index()); }
+  [[nodiscard]] FlowNode node_of(VertexId v) const {
+    return static_cast<FlowNode>(first_vertex() + v.index());
+  }
   [[nodiscard]] bool is_vertex(FlowNode node) const {
     return node >= first_vertex() && node - first_vertex() < mesh.vertex_count();
   }

@@ -70,7 +70,8 @@ void find_channels(FlowGraph& graph, const Progress& progress) {
 
 namespace {
 
-/// How many sides each triangle waits for: those over which it hands water on into triangles that are not done.
+/// How many sides each triangle waits for: those over which it hands water on into triangles that are not
+/// done.
 using Waiting = LargeVector<std::uint8_t>;
 constexpr std::uint8_t kStart = 0xff;  // it never waited
 constexpr std::uint8_t kLevel = 0xfe;
@@ -211,10 +212,9 @@ class Parts {
   }
 
   void start(const Progress& progress) {
-    for_each_block(finders_.size(), 1, progress,
-                   [&](std::size_t part, std::size_t /*end*/) {
-                     finders_[part].start(writers_.local(), progress);
-                   });
+    for_each_block(finders_.size(), 1, progress, [&](std::size_t part, std::size_t /*end*/) {
+      finders_[part].start(writers_.local(), progress);
+    });
     go_on(progress);
   }
   void finish_from(TriangleId t, const Progress& progress) {
@@ -256,8 +256,8 @@ bool waits(const Waiting& waiting, TriangleId t) {
   return waiting[t.index()] != 0 && waiting[t.index()] < kLevel;
 }
 
-/// Makes a channel of an edge of a cycle to which one comes from `t`, over sides that are awaited; returns the
-/// triangle that waited for it, perhaps for one in another cycle too.
+/// Makes a channel of an edge of a cycle to which one comes from `t`, over sides that are awaited; returns
+/// the triangle that waited for it, perhaps for one in another cycle too.
 TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
   std::vector<std::uint8_t> passed(waiting.size(), 0);
   for (;;) {

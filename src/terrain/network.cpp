@@ -74,7 +74,8 @@ class Accumulator {
 
   void settle(FlowNode node) {
     if (how_often_[node] > 1) ++highest_[node];
-    if (highest_[node] != 0 || !(area_[node] >= min_area_ && area_[node] > 0) || graph_.is_vertex(node)) return;
+    if (highest_[node] != 0 || !(area_[node] >= min_area_ && area_[node] > 0) || graph_.is_vertex(node))
+      return;
     if (!graph_.channel_of(node).on_rim) highest_[node] = 1;
   }
 
@@ -129,7 +130,8 @@ std::vector<Reach> find_network(const SurfaceFlow& flow, const Spilling& spillin
   progress.advance(0.7);
   std::vector<Reach> network;
   const auto vertex_point = [&](VertexId v) {
-    return FlowPoint{.xy = mesh.point(v), .z = mesh.height(v), .edge = {}, .along = 0, .vertex = mesh.given(v)};
+    return FlowPoint{
+        .xy = mesh.point(v), .z = mesh.height(v), .edge = {}, .along = 0, .vertex = mesh.given(v)};
   };
   for (const FlowNode node : list_reaches(graph, sums)) {
     Reach reach{.area = sums.area(node), .strahler = sums.strahler(node)};

@@ -158,7 +158,8 @@ class Tabulator {
     Buckets by_basin = sort_into_buckets(basins, table_.pits.size() + 1);
     progress.check();
     std::vector<Pass> lowest;
-    std::vector<std::size_t> place(table_.pits.size() + 1, 0);  // in `lowest`, if that is of the basin at hand
+    std::vector<std::size_t> place(table_.pits.size() + 1,
+                                   0);  // in `lowest`, if that is of the basin at hand
     for (std::uint32_t basin = 0; basin < by_basin.size(); ++basin) {
       const std::size_t first = lowest.size();
       for (const std::uint32_t i : by_basin.items(basin)) {

@@ -14,7 +14,6 @@ namespace thalweg {
 
 namespace {
 
-
 Point2 between(Point2 a, Point2 b, double share) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
 }
@@ -146,8 +145,7 @@ class Walk {
 
 }  // namespace
 
-SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Progress& progress)
-{
+SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Progress& progress) {
   constexpr std::size_t kMostVertices = std::size_t{1} << 29U;  // so that FlowNodes have 31 bits
   if (tin.vertex_count() >= kMostVertices) {
     throw Error(ErrorCode::SizeLimit,

@@ -3,8 +3,7 @@
 /// What a run tells about itself: the JSON report with fixed keys, and the same as a table for people.
 
 #include <thalweg/mesh/survey.hpp>
-#include <thalweg/pipeline/condition.hpp>
-#include <thalweg/terrain/consistency.hpp>
+#include <thalweg/pipeline/report_water.hpp>
 
 #include <array>
 #include <cstddef>
@@ -120,25 +119,6 @@ struct ReportSimplification {
   std::size_t inserted_vertices = 0;  ///< the others that the TIN has
   std::size_t barred_diagonals = 0;   ///< quadrilaterals that keep theirs for the error's sake
   std::array<double, 2> largest_error_m{}, rms_error_m{};  ///< rms: over all source points
-};
-
-/// A height that conditioning changed, under the ids and at the place of the outputs, in the TIN's unit.
-struct ReportChange {
-  std::size_t vertex = 0;
-  double x = 0, y = 0;
-  double before = 0, after = 0;
-  std::string step;
-};
-
-struct ReportConditioned {
-  std::vector<std::string> steps;  ///< as asked for
-  ConditionReport figures;
-  std::vector<ReportChange> changes;
-};
-
-/// Of drawn valleys and ridges, if there are any.
-struct ReportConsistency {
-  Consistency delaunay, result;  ///< places under the ids of the outputs
 };
 
 struct Report {

@@ -118,7 +118,8 @@ bool expect_same_as_general(const Labelling<Criteria>& problem, SmallPiece<Crite
   fixed.block.assign(problem.size(), kNone);
   std::vector<std::uint32_t> open, index(problem.size());
   for (std::uint32_t q = 0; q < problem.size(); ++q) {
-    fixed.label.push_back(std::array{Label::Zero, Label::One, Label::Open}[random.integer<std::size_t>(0, 2)]);
+    fixed.label.push_back(
+        std::array{Label::Zero, Label::One, Label::Open}[random.integer<std::size_t>(0, 2)]);
     if (q % 3 != 0) fixed.label.back() = Label::Open;
     if (fixed.label.back() == Label::Open) open.push_back(q);
   }

@@ -184,7 +184,8 @@ void expect_same_ring(const CatchmentRing& a, const CatchmentRing& b, std::span<
   }
 }
 
-// Whether the vertices' numbers are scattered over the plane, so that the flow takes its own, or run along it.
+// Whether the vertices' numbers are scattered over the plane, so that the flow takes its own, or run along
+// it.
 TEST(DrainageLaws, NumbersOfVerticesDoNotMatter) {
   test::Random random;
   SCOPED_TRACE(random.trace());

@@ -1,7 +1,6 @@
 // Terrains whose flow is known.
-#include "terrain_scene.hpp"
-
 #include "support/meshes.hpp"
+#include "terrain_scene.hpp"
 
 #include <thalweg/terrain/catchments.hpp>
 #include <thalweg/terrain/network.hpp>
@@ -191,8 +190,8 @@ TEST(AnalyticFlow, ADivideThatComesToAVertexEndsThere) {
   constexpr std::array<double, 36> kHeights = {
       2, 5, 9,  11, 14, 21, 4, 7, 8,  15, 17, 19, 3, 8,  9,  14, 17, 23,  //
       3, 7, 12, 14, 18, 21, 4, 8, 15, 18, 19, 24, 9, 12, 14, 17, 23, 27};
-  const Tin tin = test::grid_tin(
-      6, 6, [&](double x, double y) { return kHeights[static_cast<std::size_t>(6 * y + x)]; });
+  const Tin tin =
+      test::grid_tin(6, 6, [&](double x, double y) { return kHeights[static_cast<std::size_t>(6 * y + x)]; });
   const SurfaceFlow flow = flow_on(tin);
   EXPECT_NEAR(flow.sinks()[0].area, 145.0 / 9, 1e-12);
   EXPECT_NEAR(flow.sinks()[1].area, 80.0 / 9, 1e-12);
