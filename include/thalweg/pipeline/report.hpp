@@ -93,8 +93,7 @@ struct ReportHigherOrder {
 };
 
 struct ReportCriterion {
-  std::string name;
-  std::string unit;
+  std::string name, unit;
   std::string direction;  ///< "min" or "max"
   double delaunay = 0;
   double result = 0;
@@ -104,9 +103,7 @@ struct ReportCriterion {
 };
 
 struct ReportPits {
-  std::size_t interior = 0;
-  std::size_t boundary = 0;
-  std::size_t lake = 0;
+  std::size_t interior = 0, boundary = 0, lake = 0;
 };
 
 /// Of a run with --max-error or --max-points. Pairs: the Delaunay TIN, the result.
