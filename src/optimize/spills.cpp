@@ -62,6 +62,19 @@ void sort_by_height(std::vector<HeightEdge>& edges) {
   });
 }
 
+/// By height, then by what is the same under any ids: which of many links are left out depends on the order.
+void sort_by_place(const Tin& tin, std::vector<HeightEdge>& edges) {
+  const auto place = [&](std::uint32_t node) { return tin.point(VertexId{node - 1}); };
+  for (HeightEdge& edge : edges) {
+    if (edge.a != kRoot && place(edge.b) < place(edge.a)) std::swap(edge.a, edge.b);
+  }
+  tbb::parallel_sort(edges.begin(), edges.end(), [&](const HeightEdge& x, const HeightEdge& y) {
+    if (x.height != y.height) return x.height < y.height;
+    if (x.a == kRoot || y.a == kRoot) return x.a == kRoot && (y.a != kRoot || place(x.b) < place(y.b));
+    return std::pair(place(x.a), place(x.b)) < std::pair(place(y.a), place(y.b));
+  });
+}
+
 HeightEdge edge_between(const Tin& tin, VertexId a, VertexId b) {
   return {std::max(tin.height(a), tin.height(b)), node_of(a), node_of(b)};
 }
@@ -319,8 +332,9 @@ class DepthSweep {
 DepthTerms find_depth_terms(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                             std::span<const std::uint32_t> owner, double metres_per_unit,
                             std::span<const std::uint32_t> rank, const Progress& progress) {
-  const std::vector<HeightEdge> fixed = fixed_edges(tin, owner, progress);
-  const std::vector<HeightEdge> links = helpful_diagonals(tin, quadrilaterals);
+  std::vector<HeightEdge> fixed = fixed_edges(tin, owner, progress);
+  std::vector<HeightEdge> links = helpful_diagonals(tin, quadrilaterals);
+  for (std::vector<HeightEdge>* const edges : {&fixed, &links}) sort_by_place(tin, *edges);
   progress.check();
   return DepthSweep(tin, metres_per_unit).run(fixed, links, rank);
 }
