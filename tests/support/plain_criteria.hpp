@@ -39,17 +39,7 @@ class PlainCriteria : private PlainShape {
     if (name == "max-area") return of_triangles([&](auto& t) { return area(t); }, false);
     if (name == "max-angle") return of_triangles([&](auto& t) { return angles(t).back(); }, false);
     if (name == "min-angle") return of_triangles([&](auto& t) { return -angles(t).front(); }, false);
-    if (name == "pit-depth") return PlainWater(tin_, vertical_).pit_depth();
-    if (name == "valley-triangles") {
-      const PlainWater water(tin_, vertical_);
-      return of_triangles([&](auto& t) { return water.on_valleys(t) ? 1.0L : 0.0L; }, true);
-    }
-    if (name == "draining-valleys") {
-      const PlainWater water(tin_, vertical_);
-      return -sum_of_edges([&](auto& a, auto& b, auto& edge) {
-        return water.is_drawn_valley(edge) && water.drains(a, b, edge) ? length(edge) : 0.0L;
-      });
-    }
+    if (PlainWater::measures(name)) return PlainWater(tin_, horizontal_, vertical_).value(name);
     return of_vertices(name);
   }
 

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,12 +21,34 @@ class PlainWater {
  public:
   using Edge = std::pair<VertexId, VertexId>;
 
-  PlainWater(const Tin& tin, double vertical)
-      : tin_(tin), vertical_(vertical), edges_(triangles_by_edge(tin)) {
+  PlainWater(const Tin& tin, double horizontal, double vertical)
+      : tin_(tin), horizontal_(horizontal), vertical_(vertical), edges_(triangles_by_edge(tin)) {
     for (const ConstraintEdge& edge : tin.constraint_edges()) kind_[std::minmax(edge.a, edge.b)] = edge.kind;
     for (const auto& [edge, kind] : kind_) {
       if (has(kind, EdgeKind::Valley)) on_valley_.insert({edge.first, edge.second});
     }
+  }
+
+  static bool measures(const std::string& name) {
+    return name == "pit-depth" || name == "valley-triangles" || name == "draining-valleys";
+  }
+  /// In steps of 2^-32; less is better. Pre: it is measured here.
+  [[nodiscard]] std::int64_t value(const std::string& name) const {
+    if (name == "pit-depth") return pit_depth();
+    std::int64_t steps = 0;
+    if (name == "valley-triangles") {
+      for (const Triangle& t : tin_.triangles()) steps += on_valleys(t) ? std::int64_t{1} << 32U : 0;
+      return steps;
+    }
+    for (const auto& [edge, triangles] : edges_) {
+      if (triangles.size() < 2 || !is_drawn_valley(edge) || !drains(triangles[0], triangles[1], edge))
+        continue;
+      const Point2 a = tin_.point(edge.first), b = tin_.point(edge.second);
+      const long double length = std::hypot((a.x - b.x) * static_cast<long double>(horizontal_),
+                                            (a.y - b.y) * static_cast<long double>(horizontal_));
+      steps -= static_cast<std::int64_t>(std::floor(length * 0x1p32L + 0.5L));
+    }
+    return steps;
   }
 
   /// In steps of 2^-32 m: floods to each height in turn; between two heights every set of flooded vertices
@@ -103,7 +127,7 @@ class PlainWater {
   }
 
   const Tin& tin_;
-  double vertical_;
+  double horizontal_, vertical_;
   std::map<Edge, std::vector<Triangle>> edges_;
   std::map<Edge, EdgeKind> kind_;
   std::set<VertexId> on_valley_;

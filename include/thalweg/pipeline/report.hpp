@@ -3,7 +3,7 @@
 /// What a run tells about itself: the JSON report with fixed keys, and the same as a table for people.
 
 #include <thalweg/mesh/survey.hpp>
-#include <thalweg/pipeline/report_water.hpp>
+#include <thalweg/pipeline/water_report.hpp>
 
 #include <array>
 #include <cstddef>
@@ -100,10 +100,6 @@ struct ReportCriterion {
   double bound = 0;
   bool optimal = false;
   std::string method;
-};
-
-struct ReportPits {
-  std::size_t interior = 0, boundary = 0, lake = 0;
 };
 
 /// Of a run with --max-error or --max-points. Pairs: the Delaunay TIN, the result.

@@ -53,7 +53,7 @@ TEST(ConsistencyLaws, DrawnValleysAreThoseOfPlainCodeAndOfTheCriteria) {
   for (int i = 0; i < 120; ++i) {
     const Tin tin = whole_terrain(i, random);
     const Consistency found = check_consistency(tin, {});
-    const test::PlainWater water(tin, 1);
+    const test::PlainWater water(tin, 1, 1);
     double length = 0;
     for (const auto& [edge, triangles] : test::triangles_by_edge(tin)) {
       const bool drains = triangles.size() == 2 && water.drains(triangles[0], triangles[1], edge);

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a report says of water: heights that changed for it, and whether drawn valleys and ridges hold.
+/// What a run tells of water: pits, drawn lines before and after, and heights that conditioning changed.
 
 #include <thalweg/pipeline/condition.hpp>
 #include <thalweg/terrain/consistency.hpp>
@@ -10,6 +10,12 @@
 #include <vector>
 
 namespace thalweg {
+
+struct ReportPits {
+  std::size_t interior = 0;
+  std::size_t boundary = 0;
+  std::size_t lake = 0;
+};
 
 /// A height that conditioning changed, under the ids and at the place of the outputs, in the TIN's unit.
 struct ReportChange {
