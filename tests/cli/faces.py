@@ -57,7 +57,7 @@ class Faces:
         return f"{self.folder}/{name}"
 
     def call(self, *command, env=None):
-        done = subprocess.run(command, cwd=self.folder, env=env, capture_output=True, text=True, timeout=150)
+        done = subprocess.run(command, cwd=self.folder, env=env, capture_output=True, text=True, timeout=400)
         return done.returncode, done.stdout + done.stderr
 
     def through(self, face, job, source, output, options, qgis):

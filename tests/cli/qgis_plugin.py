@@ -141,7 +141,7 @@ class Bench:
                         QGIS_PLUGINPATH=plugins, THALWEG_PROGRAM=binary, PYTHONDONTWRITEBYTECODE="1")
 
     def run(self, *command):
-        done = subprocess.run(command, cwd=self.folder, env=self.env, capture_output=True, text=True, timeout=150)
+        done = subprocess.run(command, cwd=self.folder, env=self.env, capture_output=True, text=True, timeout=400)
         return done.returncode, done.stdout + done.stderr
 
     def check(self, name, right, text):

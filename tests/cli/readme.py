@@ -72,7 +72,7 @@ def run(name, language, body, folder, env):
         return 0
     try:
         done = subprocess.run(command_of(language, body, folder), cwd=folder, env=env, capture_output=True, text=True,
-                              timeout=200)
+                              timeout=500)
     except subprocess.TimeoutExpired:
         print(f"FAIL {name}: it takes too long")
         return 1
