@@ -71,7 +71,7 @@ class SurfaceFlow {
   /// The TIN must outlive this. `outlets`: water that reaches one of these vertices leaves.
   /// Pre: the TIN is valid, heights are finite. Throws: Error{SizeLimit} from 2^29 vertices on;
   /// Error{Cancelled}. Complexity: linear, plus one step for each crossing of an edge by a line that divides
-  /// the grounds of two channels.
+  /// the grounds of two channels; on all threads. The answers do not depend on their number.
   SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Progress& progress);
   ~SurfaceFlow();
   SurfaceFlow(SurfaceFlow&&) noexcept;
