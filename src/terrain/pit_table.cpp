@@ -230,11 +230,13 @@ class Tabulator {
       lake.push_back(out);
     };
     Water water;
-    for (std::size_t next = 0; next < lake.size(); ++next) {
-      const VertexId v = mesh_.origin(lake[next]);
+    std::size_t next = 0;
+    while (next < lake.size()) {
+      const HalfedgeId out = lake[next++];
+      const VertexId v = mesh_.origin(out);
       const Point2 o = mesh_.point(v);
       const double over_v = pit.spill_height - mesh_.height(v);
-      mesh_.for_each_out_around(lake[next], [&](HalfedgeId h) {
+      mesh_.for_each_out_around(out, [&](HalfedgeId h) {
         const Triangle& corner = mesh_.triangle(Tin::triangle_of(h));
         const std::size_t i = h.index() % 3, j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
         const VertexId b = corner[j], c = corner[k];

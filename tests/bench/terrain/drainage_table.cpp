@@ -81,7 +81,7 @@ Counts drain(const Tin& tin, double min_area, Stopwatch& whole, Stopwatch& step)
 void print_row(const char* name, Pattern pattern, std::size_t count) {
   const TerrainPoints points = fractal_terrain(pattern, count);
   const auto n = static_cast<double>(points.xy.size());
-  const int runs = count < 1'000'000 ? 9 : 5;
+  const int runs = count < 1'000'000 ? 9 : count > 2'000'000 ? 2 : 4;
   Stopwatch whole, step;
   Counts counts;
   for (int run = 0; run < runs; ++run) {
