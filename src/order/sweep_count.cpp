@@ -18,9 +18,8 @@
 //    vertex that it sees in another cap will do, if there is one.
 // 4. EmptyQuad: p sees u and v, and triangle uvp is empty. By angle at u, then by distance from u: p is empty
 //    if its angle at v is smaller than all before it.
-// 5. Over simple polygons a walk along the dual tree (polygon_view.cpp) gives each view, and the gaps of a
-// view
-//    are as many as the faces at most (section 5 and Table 2). A triangle uvp whose sides run on the ground
+// 5. Over simple polygons walks along the dual tree give each view (polygon_view.cpp) and all that sees a side
+//    (side_view.cpp; section 5 and Table 2). A triangle uvp whose sides run on the ground
 //    then holds no vertex (Lemma 2).
 #include "order/sweep_count.hpp"
 
@@ -157,6 +156,16 @@ void SweepCount::view(const Ground& ground, VertexId eye, ViewSweep::HalfPlane h
 
 void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::size_t side) {
   const VertexId u = corners_[side], v = corners_[(side + 1) % 3], w = corners_[(side + 2) % 3];
+  const bool by_light = definition == OrderDefinition::SeesTriang || definition == OrderDefinition::SeesVtx ||
+                        definition == OrderDefinition::ConfEdge;
+  if (by_light && ground.simple_polygons()) {
+    assign_sorted(in_light_, side_view_.look(ground, disc_, u, v));
+    in_light_ = common(in_light_, beyond_[side]);
+    if (definition == OrderDefinition::SeesTriang) {
+      counted_.insert(counted_.end(), in_light_.begin(), in_light_.end());
+      return;
+    }
+  }
   if (definition != OrderDefinition::EmptyQuad) {
     view(ground, w, {v, -1}, beyond_[side], edges_, from_corner_);
     seen_ = common(from_corner_, beyond_[side]);
@@ -176,10 +185,7 @@ void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::
     if (!ground.simple_polygons()) keep_empty(ground, u, v, seen_);
   }
   counted_.insert(counted_.end(), seen_.begin(), seen_.end());
-  if (definition == OrderDefinition::SeesTriang || definition == OrderDefinition::SeesVtx ||
-      definition == OrderDefinition::ConfEdge) {
-    add_light(ground, definition, side);
-  }
+  if (by_light) add_light(ground, definition, side);
 }
 
 // Of the vertices that do not see w those that count all the same.
@@ -206,7 +212,9 @@ void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std
         continue;
       }
     }
-    if (!side_sight_.sees_side(ground, p, u, v, edges_)) continue;
+    const bool in_light = ground.simple_polygons() ? listed(in_light_, p)
+                                                   : side_sight_.sees_side(ground, p, u, v, edges_);
+    if (!in_light) continue;
     if (definition == OrderDefinition::ConfEdge && !conflicts(ground, p, side)) continue;
     counted_.push_back(p);
   }

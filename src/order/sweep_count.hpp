@@ -5,6 +5,7 @@
 #include "order/flood.hpp"
 #include "order/ground.hpp"
 #include "order/polygon_view.hpp"
+#include "order/side_view.hpp"
 #include "order/sights.hpp"
 #include "order/view_sweep.hpp"
 
@@ -41,11 +42,13 @@ class SweepCount {
   std::array<std::vector<VertexId>, 3> beyond_;  ///< vertices reached beyond side i
   std::vector<VertexId> all_beyond_;             ///< all vertices inside beyond the side at hand
   std::vector<VertexId> seen_, from_start_, from_end_, from_corner_;
+  std::vector<VertexId> in_light_;  ///< over simple polygons: what sees the side at hand
   std::vector<VertexId> counted_;
   std::span<const VertexId> inside_;
   ViewSweep sweep_;
   Circumdisc disc_;
   PolygonView polygon_view_;
+  SideView side_view_;
   SideSight side_sight_;
 };
 

@@ -1,0 +1,59 @@
+#pragma once
+
+/// What a side of a triangle in a simple polygon sees inside a disc, by one walk along the dual tree.
+
+#include "order/circumdisc.hpp"
+#include "order/ground.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace thalweg::detail {
+
+/// Looks from one side after the other; scratch memory is reused.
+class SideView {
+ public:
+  /// The vertices that see a point of the open side uv along a segment in the disc, and some more that see
+  /// one; in no promised order. Pre: ground.simple_polygons(); the side of a valid triangle to the left of uv,
+  /// which does not block. Complexity: n log n at most for the n faces that meet the disc; each is entered
+  /// once.
+  std::span<const VertexId> look(const Ground& ground, const Circumdisc& disc, VertexId u, VertexId v);
+
+ private:
+  /// Of a chain: the corners at which the lit ground bends, from the far end, near uv, to the near one.
+  struct Link {
+    VertexId vertex;
+    std::uint32_t farther, nearer;
+  };
+  struct Chain {
+    std::uint32_t far, near;
+  };
+  enum class Turn : int { Right = -1, Left = 1 };
+  /// An edge through which light from uv falls: `edge` from its right to its left end, entered from uv's side.
+  struct Window {
+    HalfedgeId edge;
+    Chain right, left;
+  };
+  struct Halves {
+    Chain far, near;
+  };
+
+  std::uint32_t add(VertexId v);
+  Chain append(Chain chain, VertexId v);
+  [[nodiscard]] int turn(std::uint32_t farther, std::uint32_t nearer, VertexId x) const;
+  [[nodiscard]] std::uint32_t tangent(Chain chain, Turn bend, VertexId x) const;
+  Halves split(Chain chain, std::uint32_t at);
+  void open_windows(VertexId u, VertexId v);
+  void wrap(std::span<const VertexId> corners, Turn bend, std::vector<Chain>& chains);
+  void enter(const Window& window);
+
+  const Ground* ground_ = nullptr;
+  std::vector<Link> links_;
+  std::vector<Window> open_;
+  std::vector<VertexId> visible_, corners_;
+  std::vector<HalfedgeId> edges_;
+  std::vector<Chain> right_, left_;
+};
+
+}  // namespace thalweg::detail
