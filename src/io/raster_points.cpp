@@ -57,8 +57,7 @@ class RasterPoints : public SourceReader {
                                 ? " is placed by control points only; warp it first (gdalwarp)"
                                 : " has no georeference; give it one (gdal_translate -a_ullr)"));
     }
-    const std::array<double, 6>& g = frame_.geotransform;
-    if (!is_usable(1 / (g[1] * g[5] - g[2] * g[4]))) {
+    if (!has_area()) {
       throw Error(ErrorCode::BadFormat, name() + " has a geotransform that maps cells to no area");
     }
     if (GDALDataTypeIsComplex(band_->GetRasterDataType()) != 0) {
@@ -95,6 +94,14 @@ class RasterPoints : public SourceReader {
   }
 
  private:
+  /// Whether cells have an area, and all of them lie where coordinates are finite.
+  [[nodiscard]] bool has_area() const {
+    const std::array<double, 6>& g = frame_.geotransform;
+    const double columns = dataset_->GetRasterXSize(), rows = dataset_->GetRasterYSize();
+    const double reach_x = std::abs(g[0]) + std::abs(g[1]) * columns + std::abs(g[2]) * rows;
+    const double reach_y = std::abs(g[3]) + std::abs(g[4]) * columns + std::abs(g[5]) * rows;
+    return is_usable(1 / (g[1] * g[5] - g[2] * g[4])) && is_usable(reach_x) && is_usable(reach_y);
+  }
   /// Adds the centres of the cells in the whole raster's corners.
   void add_corners(Box2& box) const {
     const auto columns = static_cast<std::size_t>(dataset_->GetRasterXSize());

@@ -90,7 +90,7 @@ def short_writes():
             target = new_target("out" + extension)
             done = run("build", "p.csv", target, "--overwrite", "-q",
                        preexec_fn=limited(resource.RLIMIT_FSIZE, length))
-            judge(f"short write, {extension}, after {length} bytes", done, "write-failed", target)
+            judge(f"short write, {extension}, at five lengths", done, "write-failed", target)
         os.remove(target)
         for beside in pathlib.Path(".").glob("out.*"):
             beside.unlink()
@@ -312,7 +312,8 @@ def table():
         merged[fault, got, disk] += 1
     print("| fault | answer | on disk afterwards |\n|---|---|---|")
     for (fault, got, disk), count in merged.items():
-        print(f"| {fault}{f' ({count} times)' if count > 1 else ''} | {got} | {disk} |")
+        times = f" ({count} times)" if count > 1 else ""
+        print(f"| {fault}{times} | {got} | {disk} |")
 
 
 def main():
