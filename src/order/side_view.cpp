@@ -1,21 +1,22 @@
 // Light from a side.
 //
 // Based on: Guibas, Hershberger, Leven, Sharir, Tarjan, Linear-time algorithms for visibility and shortest
-// path problems inside triangulated simple polygons, 1987, for the walk along the dual tree with two chains of
-// shortest paths. Of these chains only the part is kept that bounds light, which is cut in two where paths
+// path problems inside triangulated simple polygons, 1987, for the walk along the dual tree with two chains
+// of shortest paths. Of these chains only the part is kept that bounds light, which is cut in two where paths
 // part.
 //
 // 1. The rays from points of the open side uv that go through an edge ab of the triangulation ("window") lie
-//    between two: the one farthest right touches the left chain at its far end and then the right chain at its
-//    near end, the one farthest left the other way round. Between these touches each chain bends inwards:
+//    between two: the one farthest right touches the left chain at its far end and then the right chain at
+//    its near end, the one farthest left the other way round. Between these touches each chain bends inwards:
 //    the left chain is a path from its far end that turns left at each corner, the right one turns right.
 // 2. The third corner x of the face beyond the window is in light if it lies strictly between the two rays; a
 //    vertex that a ray touches shades what lies behind it (closed shadows). Else all light passes it on one
 //    side, through one of the face's other edges, between the same rays.
-// 3. If x is in light it cuts it in two. The rays through x lie between its tangents to both chains. Through ax
-//    falls what touches the left chain up to the tangent's point, then x, and the right chain from the tangent's
-//    point on; through xb the rest. So both chains fall apart, with that point in both parts. It is looked for
-//    from both ends at once: the work is that of the smaller part, n log n in all.
+// 3. If x is in light it cuts it in two. The rays through x lie between its tangents to both chains. Through
+// ax
+//    falls what touches the left chain up to the tangent's point, then x, and the right chain from the
+//    tangent's point on; through xb the rest. So both chains fall apart, with that point in both parts. It is
+//    looked for from both ends at once: the work is that of the smaller part, n log n in all.
 // 4. The faces that uv crosses: their corners right of uv are in light, along the edges that cross uv. Of two
 //    that follow each other, each bounds the light through the edge between them; the chains are those that a
 //    shortest path from u to one, and from v to the other, loses on its way to the next: a Graham scan.
@@ -70,7 +71,8 @@ SideView::Halves SideView::split(Chain chain, std::uint32_t at) {
   return {{chain.far, at}, {copy, at == chain.near ? copy : chain.near}};
 }
 
-// For each corner but the first the chain that the path to it leaves, from where it does to the corner before.
+// For each corner but the first the chain that the path to it leaves, from where it does to the corner
+// before.
 void SideView::wrap(std::span<const VertexId> corners, Turn bend, std::vector<Chain>& chains) {
   chains.clear();
   const std::uint32_t first = add(corners.front());

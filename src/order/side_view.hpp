@@ -15,9 +15,9 @@ namespace thalweg::detail {
 class SideView {
  public:
   /// The vertices that see a point of the open side uv along a segment in the disc, and some more that see
-  /// one; in no promised order. Pre: ground.simple_polygons(); the side of a valid triangle to the left of uv,
-  /// which does not block. Complexity: n log n at most for the n faces that meet the disc; each is entered
-  /// once.
+  /// one; in no promised order. Pre: ground.simple_polygons(); the side of a valid triangle to the left of
+  /// uv, which does not block. Complexity: n log n at most for the n faces that meet the disc; each is
+  /// entered once.
   std::span<const VertexId> look(const Ground& ground, const Circumdisc& disc, VertexId u, VertexId v);
 
  private:
@@ -30,7 +30,8 @@ class SideView {
     std::uint32_t far, near;
   };
   enum class Turn : int { Right = -1, Left = 1 };
-  /// An edge through which light from uv falls: `edge` from its right to its left end, entered from uv's side.
+  /// An edge through which light from uv falls: `edge` from its right to its left end, entered from uv's
+  /// side.
   struct Window {
     HalfedgeId edge;
     Chain right, left;

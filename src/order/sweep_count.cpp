@@ -18,7 +18,8 @@
 //    vertex that it sees in another cap will do, if there is one.
 // 4. EmptyQuad: p sees u and v, and triangle uvp is empty. By angle at u, then by distance from u: p is empty
 //    if its angle at v is smaller than all before it.
-// 5. Over simple polygons walks along the dual tree give each view (polygon_view.cpp) and all that sees a side
+// 5. Over simple polygons walks along the dual tree give each view (polygon_view.cpp) and all that sees a
+// side
 //    (side_view.cpp; section 5 and Table 2). A triangle uvp whose sides run on the ground
 //    then holds no vertex (Lemma 2).
 #include "order/sweep_count.hpp"
@@ -212,8 +213,8 @@ void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std
         continue;
       }
     }
-    const bool in_light = ground.simple_polygons() ? listed(in_light_, p)
-                                                   : side_sight_.sees_side(ground, p, u, v, edges_);
+    const bool in_light =
+        ground.simple_polygons() ? listed(in_light_, p) : side_sight_.sees_side(ground, p, u, v, edges_);
     if (!in_light) continue;
     if (definition == OrderDefinition::ConfEdge && !conflicts(ground, p, side)) continue;
     counted_.push_back(p);

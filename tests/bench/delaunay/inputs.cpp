@@ -1,5 +1,7 @@
 #include "bench/delaunay/inputs.hpp"
 
+#include "bench/fractal_terrain.hpp"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
@@ -22,32 +24,6 @@ namespace thalweg::bench {
 namespace {
 
 constexpr double kSpacing = 30;
-
-/// A value of 0 to 1 for a node of a lattice.
-double node_value(std::int64_t i, std::int64_t j, std::uint64_t octave) {
-  std::uint64_t h = static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15U ^
-                    static_cast<std::uint64_t>(j) * 0xc2b2ae3d27d4eb4fU ^ octave * 0x165667b19e3779f9U;
-  h = (h ^ (h >> 31U)) * 0xbf58476d1ce4e5b9U;
-  h = (h ^ (h >> 29U)) * 0x94d049bb133111ebU;
-  return static_cast<double>((h ^ (h >> 32U)) >> 11U) * 0x1p-53;
-}
-
-/// Bilinear noise, each octave of half the wavelength and 0.6 times the amplitude of the one before.
-double fractal_height(Point2 p) {
-  double height = 0, amplitude = 400, wavelength = 12800;
-  for (std::uint64_t octave = 0; octave < 9; ++octave) {
-    const double x = p.x / wavelength, y = p.y / wavelength;
-    const double i = std::floor(x), j = std::floor(y), fx = x - i, fy = y - j;
-    const auto at = [&](int di, int dj) {
-      return node_value(static_cast<std::int64_t>(i) + di, static_cast<std::int64_t>(j) + dj, octave);
-    };
-    height += amplitude *
-              ((1 - fy) * ((1 - fx) * at(0, 0) + fx * at(1, 0)) + fy * ((1 - fx) * at(0, 1) + fx * at(1, 1)));
-    amplitude *= 0.6;
-    wavelength /= 2;
-  }
-  return height;
-}
 
 void add_lines(Survey& survey, double side) {
   const auto& xy = survey.points.xy;
