@@ -21,7 +21,7 @@ namespace thalweg {
 /// How a triangle falls across its side.
 enum class Fall : std::uint8_t { Level = 0, In = 1, Out = 2, Along = 3 };
 
-/// What comes to be of the water on a side: one node, or the index of the first of its pieces.
+/// Where the water on a side leads: to one node, or by pieces, of which this is the index of the first.
 class FlowTarget {
  public:
   FlowTarget() = default;

@@ -157,7 +157,7 @@ class Package(unittest.TestCase):
     def test_every_option_of_the_command_line_is_known_by_name(self):
         text = subprocess.run([BINARY, "build", "--help"], check=True, capture_output=True, text=True).stdout
         outputs = {"help", "of", "co", "overwrite", "report", "picture", "dump-problem", "quiet", "progress", "format",
-                   "proof", "version"}
+                   "proof", "version", "condition-layer"}
         names = set(re.findall(r"--([a-z-]+)", text)) - outputs
         self.assertGreater(len(names), 20)
         for name in sorted(names):
