@@ -19,8 +19,6 @@
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <atomic>
 #include <numeric>
@@ -42,15 +40,32 @@ constexpr std::size_t kMostCrossings = 20'000'000;
                                         "order, fewer vertices, or a stronger definition");
 }
 
-Rows rows_of(std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, std::size_t count) {
-  tbb::parallel_sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+/// Items of each row, ascending, each once.
+Rows rows_of(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, std::size_t count,
+             const Progress& progress) {
   Rows rows;
   rows.first.assign(count + 1, 0);
   for (const auto& [row, item] : pairs) ++rows.first[row + 1];
   std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
-  rows.items.reserve(pairs.size());
-  for (const auto& [row, item] : pairs) rows.items.push_back(item);
+  rows.items.resize(pairs.size());
+  std::vector<std::uint32_t> next(rows.first.begin(), rows.first.end() - 1);
+  for (const auto& [row, item] : pairs) rows.items[next[row]++] = item;
+  for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const auto from = rows.items.begin() + rows.first[row], to = rows.items.begin() + rows.first[row + 1];
+      std::sort(from, to);
+      next[row] = static_cast<std::uint32_t>(std::unique(from, to) - from);
+    }
+  });
+  std::uint32_t kept = 0;
+  for (std::size_t row = 0; row < count; ++row) {
+    const auto from = rows.items.begin() + rows.first[row];
+    std::copy(from, from + next[row], rows.items.begin() + kept);
+    rows.first[row] = kept;
+    kept += next[row];
+  }
+  rows.first[count] = kept;
+  rows.items.resize(kept);
   return rows;
 }
 
@@ -63,42 +78,53 @@ class Finder {
 
   Candidates find() {
     number_edges();
-    if (drop_dead_ends()) number_edges();
+    drop_dead_ends();
     find_crossings();
-    cut_into_faces(found_);
+    cut_into_faces(found_, progress_);
     return std::move(found_);
   }
 
  private:
   void number_edges();
-  bool drop_dead_ends();
+  void number_sides();
+  void drop_dead_ends();
   void find_crossings();
   template <class Visit>
   void follow(const CandidateEdge& edge, const Visit& visit) const;
   [[nodiscard]] bool cross(std::uint32_t e, std::uint32_t f) const;
   [[nodiscard]] std::uint32_t number_of(VertexId a, VertexId b) const;
+  [[nodiscard]] std::vector<std::uint32_t> numbers_in_ground() const;
 
   const Tin& ground_;
   const Progress& progress_;
   Candidates found_;
+  std::vector<std::uint32_t> first_edge_;  ///< by lower end; then their number
 };
 
 void Finder::number_edges() {
-  std::vector<std::pair<VertexId, VertexId>> ends;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
   ends.reserve(3 * found_.triangles.size());
   for (const OrderTriangle& t : found_.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) ends.push_back(std::minmax(t.corners[i], t.corners[(i + 1) % 3]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      ends.emplace_back(std::minmax({t.corners[i].value(), t.corners[(i + 1) % 3].value()}));
+    }
   }
-  tbb::parallel_sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-  found_.edges.assign(ends.size(), {});
-  for_each_block(ends.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) {
-      const auto [a, b] = ends[e];
-      const HalfedgeId there = ground_.find_halfedge(a, b);
-      found_.edges[e] = {a, b, there.valid() ? there : ground_.find_halfedge(b, a), false};
+  Rows higher = rows_of(ends, ground_.vertex_count(), progress_);
+  found_.edges.assign(higher.items.size(), {});
+  for_each_block(higher.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      for (std::uint32_t e = higher.first[v]; e < higher.first[v + 1]; ++e) {
+        const VertexId a{v}, b{higher.items[e]};
+        const HalfedgeId there = ground_.find_halfedge(a, b);
+        found_.edges[e] = {a, b, there.valid() ? there : ground_.find_halfedge(b, a), false};
+      }
     }
   });
+  first_edge_ = std::move(higher.first);
+  number_sides();
+}
+
+void Finder::number_sides() {
   found_.sides.resize(found_.triangles.size());
   for_each_block(found_.triangles.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
@@ -111,27 +137,39 @@ void Finder::number_edges() {
   });
 }
 
+// Pre: it is an edge.
 std::uint32_t Finder::number_of(VertexId a, VertexId b) const {
-  const auto at = std::lower_bound(found_.edges.begin(), found_.edges.end(), std::pair(a, b),
-                                   [](const CandidateEdge& edge, const std::pair<VertexId, VertexId>& ends) {
-                                     return std::pair(edge.a, edge.b) < ends;
-                                   });
-  const bool there = at != found_.edges.end() && at->a == a && at->b == b;
-  return there ? static_cast<std::uint32_t>(at - found_.edges.begin()) : kNone;
+  const auto first = found_.edges.begin() + first_edge_[a.index()];
+  const auto last = found_.edges.begin() + first_edge_[a.index() + 1];
+  const auto at =
+      std::lower_bound(first, last, b, [](const CandidateEdge& edge, VertexId end) { return edge.b < end; });
+  return static_cast<std::uint32_t>(at - found_.edges.begin());
 }
 
-bool Finder::drop_dead_ends() {
+// By halfedge of the ground.
+std::vector<std::uint32_t> Finder::numbers_in_ground() const {
+  std::vector<std::uint32_t> number(ground_.halfedge_count(), kNone);
+  for (std::uint32_t e = 0; e < found_.edges.size(); ++e) {
+    const HalfedgeId h = found_.edges[e].ground;
+    if (!h.valid()) continue;
+    number[h.index()] = e;
+    if (!ground_.on_rim(h)) number[ground_.twin(h).index()] = e;
+  }
+  return number;
+}
+
+void Finder::drop_dead_ends() {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> at_side;
   at_side.reserve(3 * found_.triangles.size());
   for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
     for (const std::uint32_t side : found_.sides[t]) at_side.emplace_back(side, t);
   }
-  const Rows on = rows_of(at_side, 2 * found_.edges.size());
+  const Rows on = rows_of(at_side, 2 * found_.edges.size(), progress_);
   std::vector<std::uint32_t> alive(on.size());
   for (std::size_t side = 0; side < on.size(); ++side) {
     alive[side] = static_cast<std::uint32_t>(on.row(side).size());
   }
-  std::vector<bool> dead(found_.triangles.size(), false);
+  std::vector<std::uint8_t> dead(found_.triangles.size(), 0);
   std::vector<std::uint32_t> lonely;  // sides whose triangles all have nothing beyond
   const auto needs_both = [&](std::uint32_t side) {
     const HalfedgeId h = found_.edges[side / 2].ground;
@@ -145,20 +183,15 @@ bool Finder::drop_dead_ends() {
     const std::uint32_t side = lonely.back();
     lonely.pop_back();
     for (const std::uint32_t t : on.row(side)) {
-      if (dead[t]) continue;
-      dead[t] = any = true;
+      if (dead[t] != 0) continue;
+      dead[t] = 1;
+      any = true;
       for (const std::uint32_t s : found_.sides[t]) {
         if (--alive[s] == 0 && alive[s ^ 1U] > 0 && needs_both(s)) lonely.push_back(s ^ 1U);
       }
     }
   }
-  if (!any) return false;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < dead.size(); ++t) {
-    if (!dead[t]) found_.triangles[kept++] = found_.triangles[t];
-  }
-  found_.triangles.resize(kept);
-  return true;
+  if (any) drop_triangles(found_, dead);
 }
 
 // Visits the halfedges of the ground that the edge crosses, in order, each in the triangle that it leaves.
@@ -199,6 +232,7 @@ void Finder::find_crossings() {
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
   const std::size_t edges = found_.edges.size();
   const std::size_t blocks = edges / kBlock + 1;
+  const std::vector<std::uint32_t> number_of_halfedge = numbers_in_ground();
   std::vector<Pairs> passes(blocks), crossed(blocks);  // (triangle of the ground, edge); (edge, edge)
   for_each_block(edges, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
@@ -206,8 +240,7 @@ void Finder::find_crossings() {
       const auto number = static_cast<std::uint32_t>(e);
       follow(found_.edges[e], [&](HalfedgeId h) {
         passes[begin / kBlock].emplace_back(Tin::triangle_of(h).value(), number);
-        const auto [a, b] = std::minmax({ground_.origin(h), ground_.target(h)});
-        const std::uint32_t other = number_of(a, b);
+        const std::uint32_t other = number_of_halfedge[h.index()];
         if (other == kNone) return;
         crossed[begin / kBlock].emplace_back(number, other);
         crossed[begin / kBlock].emplace_back(other, number);
@@ -223,7 +256,7 @@ void Finder::find_crossings() {
     return all;
   };
   Pairs all_passes = joined(passes);
-  const Rows passing = rows_of(all_passes, ground_.triangle_count());
+  const Rows passing = rows_of(all_passes, ground_.triangle_count(), progress_);
   all_passes = {};
   crossed.resize(std::max(blocks, passing.size() / kBlock + 1));
   std::atomic<std::size_t> pairs{0};
@@ -242,8 +275,8 @@ void Finder::find_crossings() {
       if (pairs > kMostCrossings) refuse_crossings(edges);
     }
   });
-  Pairs all_crossed = joined(crossed);
-  found_.crossings = rows_of(all_crossed, edges);
+  const Pairs all_crossed = joined(crossed);
+  found_.crossings = rows_of(all_crossed, edges, progress_);
 }
 
 }  // namespace
@@ -253,7 +286,34 @@ Candidates find_candidates(const Tin& ground, std::vector<OrderTriangle> triangl
   return Finder(ground, std::move(triangles), progress).find();
 }
 
-void cut_into_faces(Candidates& found) {
+void drop_triangles(Candidates& from, std::span<const std::uint8_t> dropped) {
+  Candidates to;
+  std::vector<std::uint32_t> number(from.edges.size(), kNone);
+  for (std::size_t t = 0; t < dropped.size(); ++t) {
+    if (dropped[t] != 0) continue;
+    to.triangles.push_back(from.triangles[t]);
+    to.sides.push_back(from.sides[t]);
+    for (const std::uint32_t side : from.sides[t]) number[side / 2] = 0;
+  }
+  for (std::size_t e = 0; e < number.size(); ++e) {
+    if (number[e] == kNone) continue;
+    number[e] = static_cast<std::uint32_t>(to.edges.size());
+    to.edges.push_back(from.edges[e]);
+  }
+  for (auto& sides : to.sides) {
+    for (std::uint32_t& side : sides) side = 2 * number[side / 2] + side % 2;
+  }
+  for (std::size_t e = 0; e < from.crossings.size(); ++e) {
+    if (number[e] == kNone) continue;
+    for (const std::uint32_t crossed : from.crossings.row(e)) {
+      if (number[crossed] != kNone) to.crossings.items.push_back(number[crossed]);
+    }
+    to.crossings.first.push_back(static_cast<std::uint32_t>(to.crossings.items.size()));
+  }
+  from = std::move(to);
+}
+
+void cut_into_faces(Candidates& found, const Progress& progress) {
   const auto edges = static_cast<std::uint32_t>(found.edges.size());
   for (std::uint32_t e = 0; e < edges; ++e) found.edges[e].free = !found.crossings.row(e).empty();
   UnionFind same(edges);
@@ -278,7 +338,7 @@ void cut_into_faces(Candidates& found) {
     if (face == kNone) face = count++;
     members.emplace_back(face, t);
   }
-  found.faces = rows_of(members, count);
+  found.faces = rows_of(members, count, progress);
 }
 
 bool cover_ground(const Candidates& candidates, const Tin& ground) {

@@ -7,6 +7,8 @@
 #include <thalweg/order/fixed_faces.hpp>
 #include <thalweg/order/order_triangles.hpp>
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace thalweg::detail {
@@ -20,8 +22,12 @@ using Candidates = FixedFaces;
 /// cross, and pairs of edges that meet in one face.
 Candidates find_candidates(const Tin& ground, std::vector<OrderTriangle> triangles, const Progress& progress);
 
+/// Without the triangles that are marked with 1, and edges of no other triangle; faces are gone.
+/// Complexity: linear.
+void drop_triangles(Candidates& candidates, std::span<const std::uint8_t> dropped);
+
 /// Sets which edges are free, and the faces, from triangles, sides and crossings. Complexity: near-linear.
-void cut_into_faces(Candidates& candidates);
+void cut_into_faces(Candidates& candidates, const Progress& progress);
 
 /// Whether every edge of the rim and every constraint edge has candidates: else there is no triangulation.
 bool cover_ground(const Candidates& candidates, const Tin& ground);

@@ -24,35 +24,6 @@ constexpr std::size_t kFaces = 64;
 constexpr std::size_t kTriangles = 4096;
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// The candidates without the triangles that are marked.
-FixedFaces without(FixedFaces&& from, std::span<const std::uint8_t> dead) {
-  FixedFaces to;
-  std::vector<std::uint32_t> number(from.edges.size(), kNone);
-  for (std::size_t t = 0; t < dead.size(); ++t) {
-    if (dead[t] != 0) continue;
-    to.triangles.push_back(from.triangles[t]);
-    to.sides.push_back(from.sides[t]);
-    for (const std::uint32_t side : from.sides[t]) number[side / 2] = 0;
-  }
-  for (std::size_t e = 0; e < number.size(); ++e) {
-    if (number[e] == kNone) continue;
-    number[e] = static_cast<std::uint32_t>(to.edges.size());
-    to.edges.push_back(from.edges[e]);
-  }
-  for (auto& sides : to.sides) {
-    for (std::uint32_t& side : sides) side = 2 * number[side / 2] + side % 2;
-  }
-  for (std::size_t e = 0; e < number.size(); ++e) {
-    if (number[e] == kNone) continue;
-    for (const std::uint32_t crossed : from.crossings.row(e)) {
-      if (number[crossed] != kNone) to.crossings.items.push_back(number[crossed]);
-    }
-    to.crossings.first.push_back(static_cast<std::uint32_t>(to.crossings.items.size()));
-  }
-  detail::cut_into_faces(to);
-  return to;
-}
-
 /// Whether the edge from a to b runs on the surface: it leaves a into a triangle, and each that it enters by
 /// a side has the next one, up to b.
 bool on_surface(const Tin& surface, VertexId a, VertexId b) {
@@ -108,7 +79,10 @@ std::optional<FixedFaces> find_fixed_faces(const Tin& surface, std::vector<Order
     }
   });
   if (none) return std::nullopt;
-  if (any_dead) found = without(std::move(found), dead);
+  if (any_dead) {
+    detail::drop_triangles(found, dead);
+    detail::cut_into_faces(found, progress);
+  }
   return found;
 }
 

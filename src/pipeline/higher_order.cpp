@@ -9,7 +9,7 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
-#include <thalweg/order/order_triangles.hpp>
+#include <thalweg/order/useful_triangles.hpp>
 
 #include <algorithm>
 #include <string>
@@ -86,7 +86,7 @@ SurfaceFaces find_surface_faces(const Terrain& terrain, const Tin& surface, cons
   if (found.only_flips) {
     triangles = triangles_of_flips(terrain, labelling.definition, progress);
   } else {
-    triangles = find_order_triangles(order, options, progress);
+    triangles = find_useful_triangles(order, options, progress);
   }
   progress.advance(0.6);
   if (surface.triangle_count() < terrain.ground.triangle_count()) {

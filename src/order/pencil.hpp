@@ -1,0 +1,95 @@
+#pragma once
+
+/// The circles through two vertices: which vertices lie inside them, where nothing blocks.
+
+#include "order/stamped_map.hpp"
+
+#include <thalweg/mesh/tin.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace thalweg::detail {
+
+/// For an edge the nearest vertices on either side; memory is reused from edge to edge.
+class Pencil {
+ public:
+  /// A vertex strictly left of the line from one vertex to another.
+  struct Beside {
+    VertexId vertex;
+    double cotangent = 0;  ///< of the angle at which it sees the edge: the less, the nearer
+    double error = 0;      ///< of that at most; may be infinite
+  };
+
+  /// Pre: the ground is the Delaunay triangulation of its vertices. Outlives this.
+  Pencil(const Tin& ground, std::size_t most) : ground_(&ground), most_(most) {}
+
+  /// Looks at another edge. False, and the lists say nothing, if it is one of the ground, or of no use at
+  /// order `most`: a vertex lies on it, or its triangle with the nearest vertex of some side has more
+  /// vertices in its circle.
+  bool look_at(VertexId u, VertexId v);
+
+  /// The `most` + 1 nearest vertices left of u to v: of these each is inside the circle through u, v and any
+  /// that follows. If there are fewer, all.
+  [[nodiscard]] std::span<const Beside> left() const { return left_; }
+  /// The same on the right.
+  [[nodiscard]] std::span<const Beside> right() const { return right_; }
+
+  /// Vertices inside the circle through u, v and one of the list `side`; none if more than `most`.
+  [[nodiscard]] std::optional<std::size_t> order(std::span<const Beside> side, std::size_t place) const;
+  /// Whether that triangle has no other vertex in it or on it. Pre: look_at has said yes.
+  [[nodiscard]] bool is_empty(std::span<const Beside> side, std::size_t place) const;
+
+ private:
+  /// Relative to the edge.
+  struct Position {
+    double along = 0;   ///< product of the vectors to it from both ends
+    double across = 0;  ///< cross product of the edge and the vector from its start
+    double size = 0;    ///< of what these are sums of
+  };
+  /// An edge of a face that was met, to go on over.
+  struct Border {
+    HalfedgeId edge;
+    Position from, to;
+  };
+  /// Where a search beside an edge starts.
+  struct Start {
+    std::vector<VertexId> vertices;   ///< of the faces that the edge passes, on this side
+    std::vector<HalfedgeId> borders;  ///< of these faces, on this side
+    void clear() {
+      vertices.clear();
+      borders.clear();
+    }
+  };
+
+  bool pass(VertexId u, VertexId v);
+  void enter(HalfedgeId h);
+  void look_from(VertexId u, VertexId v);
+  [[nodiscard]] Beside nearest(const Start& start) const;
+  [[nodiscard]] bool few_inside(const Start& start, const Beside& corner);
+  template <class Meet, class Limit>
+  void search(const Start& start, const Meet& meet, const Limit& limit);
+  void list(const Start& start, std::vector<Beside>& nearest);
+  void insert(const Beside& fresh, std::vector<Beside>& nearest) const;
+  [[nodiscard]] std::optional<Beside> beside(VertexId x, const Position& at) const;
+  [[nodiscard]] static bool reaches(const Border& border, double square, double cotangent);
+  [[nodiscard]] Position position(VertexId x) const;
+  [[nodiscard]] bool nearer(const Beside& one, const Beside& other) const;
+  [[nodiscard]] bool inside(Point2 from, Point2 to, const Beside& corner, const Beside& x) const;
+  [[nodiscard]] bool is_left(std::span<const Beside> side) const { return side.data() == left_.data(); }
+
+  const Tin* ground_;
+  std::size_t most_;
+  VertexId u_, v_;
+  Point2 from_, to_;  ///< of the search that is under way
+  Start left_start_, right_start_;
+  std::vector<Beside> left_, right_;
+  std::vector<TriangleId> passed_;
+  std::vector<Border> pending_;
+  std::vector<VertexId> counted_;
+  StampedMap met_;  ///< triangles
+};
+
+}  // namespace thalweg::detail
