@@ -1,5 +1,7 @@
 // The fixed-edge subdivision and the triangulations of its faces, against all triangulations of the oracle.
+#include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/order/fixed_faces.hpp>
+#include <thalweg/order/useful_triangles.hpp>
 
 #include <gtest/gtest.h>
 #include <support/oracle/law_testing.hpp>
@@ -128,6 +130,37 @@ TEST(FixedFaces, AreThoseOfASurface) {
     }
     ASSERT_EQ(by_faces(*faces), expected);
   });
+}
+
+// Without constraint edges the search from edge to edge misses no triangle that a triangulation has.
+TEST(FixedFaces, AreTheSameOfUsefulTriangles) {
+  oracle::Dice dice("useful-triangles");
+  for (int i = 0; i < 40; ++i) {
+    const int range = i % 2 == 0 ? 12 : 1000;  // a lattice with gaps; nearly general position
+    std::set<std::pair<int, int>> places;
+    for (int n = dice.between(3, 120); n > 0; --n) {
+      const int x = dice.between(0, range);
+      places.emplace(x, dice.between(0, range));
+    }
+    std::vector<Point2> points;
+    for (const auto& [x, y] : places) points.push_back({static_cast<double>(x), static_cast<double>(y)});
+    std::vector<double> heights(points.size(), 0);
+    Progress progress;
+    const Tin ground = triangulate(std::move(points), std::move(heights), {}, progress);
+    if (ground.triangle_count() == 0) continue;
+    const ConstrainedOrder order(ground);
+    for (std::size_t k = 0; k <= 4; ++k) {
+      const OrderTriangleOptions options{.max_order = k};
+      const auto all = find_order_triangles(order, options, progress);
+      const auto useful = find_useful_triangles(order, options, progress);
+      ASSERT_TRUE(std::includes(all.begin(), all.end(), useful.begin(), useful.end())) << i << " " << k;
+      const auto of_all = find_fixed_faces(ground, all, {}, progress);
+      const auto of_useful = find_fixed_faces(ground, useful, {}, progress);
+      ASSERT_TRUE(of_all && of_useful);
+      ASSERT_TRUE(of_all->triangles == of_useful->triangles) << i << " " << k;
+      ASSERT_EQ(of_all->faces.items, of_useful->faces.items) << i << " " << k;
+    }
+  }
 }
 
 }  // namespace
