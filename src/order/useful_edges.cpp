@@ -132,7 +132,7 @@ std::vector<UsefulEdge> UsefulSearch::run(std::vector<OrderTriangle> triangles) 
   if (!detail::cover_ground(candidates_, order_.ground())) return {};
   of_edge_.assign(candidates_.edges.size(), kUnreachable);
   of_face_.assign(candidates_.faces.size(), 0);
-  for_each_block(candidates_.faces.size(), 64, progress_, [&](std::size_t begin, std::size_t end) {
+  for_each_block(candidates_.faces.size(), 64, progress_, {0.5, 1}, [&](std::size_t begin, std::size_t end) {
     for (std::size_t face = begin; face < end; ++face) search(face);
   });
   const std::uint32_t everywhere = least_order_everywhere();

@@ -85,7 +85,8 @@ std::string conflict_list(std::span<const EdgeConflict> conflicts) {
 void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& progress) {
   const std::size_t count = result.max_order + 1;
   for (const OrderDefinition definition : kOrderDefinitions) {
-    progress.start_phase("census under " + std::string(definition_name(definition)));
+    const std::string name(definition_name(definition));
+    progress.start_phase("triangles under " + name);
     std::vector<CensusRow> rows(count);
     for (std::size_t k = 0; k < count; ++k) rows[k] = {.definition = definition, .order = k};
     try {
@@ -94,6 +95,7 @@ void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& 
           {.definition = definition, .max_order = result.max_order, .exhaustive_limit = kExhaustiveLimit},
           progress);
       for (const OrderTriangle& t : triangles) ++rows[t.order].triangles;
+      progress.start_phase("useful edges under " + name);
       for (const UsefulEdge& edge :
            find_useful_edges(orders, std::move(triangles),
                              {.definition = definition, .max_order = result.max_order}, progress)) {
@@ -101,7 +103,7 @@ void take_census(const ConstrainedOrder& orders, OrderResult& result, Progress& 
       }
     } catch (const Error& error) {
       if (error.code() != ErrorCode::SizeLimit) throw;
-      result.not_taken.push_back(std::string(definition_name(definition)) + ": " + error.what());
+      result.not_taken.push_back(name + ": " + error.what());
       continue;
     }
     for (std::size_t k = 1; k < count; ++k) {

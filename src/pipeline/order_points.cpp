@@ -110,6 +110,7 @@ struct ListFiles {
 void write_lists(const OrderConfig& config, const ListFiles& files, const ConstrainedOrder& orders,
                  const Tin& tin, OrderResult& result, Progress& progress) {
   if (files.triangles.empty() && files.edges.empty() && files.conflicts.empty()) return;
+  progress.start_phase("triangles");
   std::vector<OrderTriangle> triangles = find_order_triangles(
       orders, {.definition = config.definition, .max_order = config.max_order}, progress);
   if (!files.triangles.empty()) {
@@ -117,6 +118,7 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
     write_list(files.triangles, config.triangles_path, triangle_list(triangles));
   }
   if (!files.conflicts.empty()) {
+    progress.start_phase("conflicts");
     const auto faces = find_fixed_faces(tin, triangles, {}, progress);
     const EdgeConflicts conflicts = faces ? find_edge_conflicts(*faces, {}, progress) : EdgeConflicts{};
     result.conflicts = conflicts.pairs.size();
@@ -124,6 +126,7 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
     write_list(files.conflicts, config.conflicts_path, conflict_list(conflicts.pairs));
   }
   if (!files.edges.empty()) {
+    progress.start_phase("useful edges");
     const std::vector<UsefulEdge> edges =
         find_useful_edges(orders, std::move(triangles),
                           {.definition = config.definition, .max_order = config.max_order}, progress);

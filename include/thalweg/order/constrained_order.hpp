@@ -64,8 +64,9 @@ class OrderWorkspace {
 /// side. ConfEdge [n^2]: the same for each vertex that does not see its opposite corner. Up to 256 vertices
 /// pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
 /// Over a simple polygon without vertices inside, by the paper's Table 2: Pathcon, SeesOpp, Sees3vtx,
-/// EmptyQuad [n]: O(f), each face entered once by each view; SeesVtx, SeesTriang [n] and ConfEdge [n log n]:
-/// O(f), and O(f) at most for each of the same vertices.
+/// EmptyQuad [n]: O(f), each face entered once by each view; SeesVtx, SeesTriang [n]: the same, and O(n log
+/// n) at most to cut what a side sees; ConfEdge [n log n]: also O(f) at most for each vertex that sees the
+/// triangle and not its opposite corner.
 class ConstrainedOrder {
  public:
   /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in
