@@ -84,9 +84,11 @@ class CornerOrder {
     const auto [least, most] = std::minmax_element(keys.begin(), keys.end());
     const BucketOfCoordinate bucket_of(least->first.y, most->first.y, keys.size());
     std::vector<std::uint32_t> bucket;
+    bucket.reserve(keys.size());
     for (const Key& key : keys) bucket.push_back(bucket_of(key.first.y));
     const Buckets buckets = sort_into_buckets(bucket, keys.size());
     std::vector<Key> sorted;
+    sorted.reserve(keys.size());
     for (const std::uint32_t i : buckets.item) sorted.push_back(keys[i]);
     for (std::size_t b = 0; b < buckets.size(); ++b) {
       sort_keys(std::span(sorted).subspan(buckets.first[b], buckets.first[b + 1] - buckets.first[b]));
