@@ -239,9 +239,7 @@ void level(const Survey& survey, const Drawing& drawing, std::span<const std::ui
   }
   heights.conflicts = std::move(sorted.conflicts);
   heights.conflict_vertices = std::move(sorted.conflict_vertices);
-  const Tin& tin = ground.tin;
-  ground.tin = Tin({tin.points().begin(), tin.points().end()}, std::move(levelled.z),
-                   {tin.triangles().begin(), tin.triangles().end()}, tin.constraint_edges());
+  ground.tin = ground.tin.with_heights(std::move(levelled.z));
 }
 
 }  // namespace

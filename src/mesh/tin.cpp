@@ -30,14 +30,17 @@ std::string describe(const Triangle& t) {
          std::to_string(t[2].value());
 }
 
+void check_heights(std::span<const double> heights, std::span<const Point2> points) {
+  if (heights.size() == points.size()) return;
+  throw Error(ErrorCode::InvalidTin, "a TIN needs as many heights as points");
+}
+
 }  // namespace
 
 Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
          std::span<const ConstraintEdge> constraints)
     : points_(std::move(points)), heights_(std::move(heights)), triangles_(std::move(triangles)) {
-  if (heights_.size() != points_.size()) {
-    throw Error(ErrorCode::InvalidTin, "a TIN needs as many heights as points");
-  }
+  check_heights(heights_, points_);
   sort_triangles();
   link_halfedges();
   mark_constraints(constraints);
@@ -195,6 +198,13 @@ std::vector<ConstraintEdge> Tin::constraint_edges() const {
     return std::pair(a.a, a.b) < std::pair(b.a, b.b);
   });
   return edges;
+}
+
+Tin Tin::with_heights(std::vector<double> heights) const {
+  check_heights(heights, points_);
+  Tin tin = *this;
+  tin.heights_ = std::move(heights);
+  return tin;
 }
 
 Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges) {

@@ -162,8 +162,7 @@ double draining_valley(const Face& left, const Face& right, Scale scale, const T
   const auto fall = [&](const Corner& apex) {
     return fall_across(a.at, a.height, b.at, b.height, apex.at, apex.height);
   };
-  const int of_left = fall(l), of_right = fall(r);
-  return of_left >= 0 && of_right >= 0 && of_left + of_right > 0 ? edge_length(left, right, scale) : 0;
+  return makes_valley(fall(l), fall(r)) ? edge_length(left, right, scale) : 0;
 }
 
 constexpr auto kMinimise = Direction::Minimise;

@@ -111,7 +111,7 @@ void condition(Labelled& labelled, const Tin& triangulation, const RunContext& r
   ConditionedTin conditioned =
       condition_tin(triangulation, run.plane.vertical_metres_per_unit(), {}, run.condition, progress);
   const std::span<const double> heights = conditioned.tin.heights();
-  labelled.delaunay = with_heights(labelled.delaunay, {heights.begin(), heights.end()});
+  labelled.delaunay = labelled.delaunay.with_heights({heights.begin(), heights.end()});
   labelled.changes = std::move(conditioned.changes);
   labelled.conditioned = conditioned.report;
 }

@@ -66,17 +66,10 @@ ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<c
     report.sum_m += size;
     report.max_m = std::max(report.max_m, size);
   }
-  conditioned.tin = with_heights(tin, std::move(result.heights));
+  conditioned.tin = tin.with_heights(std::move(result.heights));
   conditioned.changes = std::move(result.changes);
   progress.advance(1);
   return conditioned;
-}
-
-Tin with_heights(const Tin& tin, std::vector<double> heights) {
-  return {{tin.points().begin(), tin.points().end()},
-          std::move(heights),
-          {tin.triangles().begin(), tin.triangles().end()},
-          tin.constraint_edges()};
 }
 
 void check_condition(const ConditionConfig& config, const LabellingConfig& labelling,

@@ -26,9 +26,6 @@ struct ConditionedTin {
 ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<const VertexId> outlets,
                              const ConditionConfig& config, Progress& progress);
 
-/// The same triangles on other heights.
-Tin with_heights(const Tin& tin, std::vector<double> heights);
-
 /// Refuses conditioning that what else is asked for would undo, and a layer of changes without any. Throws:
 /// Error{Usage}.
 void check_condition(const ConditionConfig& config, const LabellingConfig& labelling,

@@ -176,13 +176,6 @@ class ValleyRegression {
   std::vector<std::uint32_t> start_, at_;            // by vertex: its arcs
 };
 
-Tin with_heights(const Tin& tin, std::vector<double> heights) {
-  return {{tin.points().begin(), tin.points().end()},
-          std::move(heights),
-          {tin.triangles().begin(), tin.triangles().end()},
-          tin.constraint_edges()};
-}
-
 bool asked(const ConditionOptions& options, ConditionStep step) {
   return std::find(options.steps.begin(), options.steps.end(), step) != options.steps.end();
 }
@@ -221,7 +214,7 @@ ConditionResult condition_along(const Tin& tin, std::span<const VertexId> outlet
   std::vector<std::uint8_t> touched(tin.vertex_count(), 0);
   result.heights = ValleyRegression(tin.heights(), arcs, options.norm).run(max_change, progress);
   if (asked(options, ConditionStep::Fill) || asked(options, ConditionStep::Breach)) {
-    PitRemoval removal = remove_pits_best(with_heights(tin, std::move(result.heights)), outlets,
+    PitRemoval removal = remove_pits_best(tin.with_heights(std::move(result.heights)), outlets,
                                           {.fill = asked(options, ConditionStep::Fill),
                                            .breach = asked(options, ConditionStep::Breach),
                                            .max_change = max_change,
@@ -259,7 +252,7 @@ ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outl
     // A line whose ends were level may have a direction now. All arcs hold, so a whole line more makes no
     // cycle.
     const std::vector<DownArc> more = list_arcs(
-        with_heights(tin, result.heights),
+        tin.with_heights(result.heights),
         [&heights = result.heights](const DownArc& arc) { return heights[arc.above] < heights[arc.below]; });
     if (more.empty()) return result;
     arcs.insert(arcs.end(), more.begin(), more.end());

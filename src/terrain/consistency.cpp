@@ -47,7 +47,7 @@ class Checker {
     const VertexId a = tin_.origin(h), b = tin_.target(h);
     const HalfedgeId twin = tin_.twin(h);
     const int here = fall(h), there = twin.valid() ? fall(twin) : -1;
-    const bool valley = here >= 0 && there >= 0 && here + there > 0 && tin_.height(a) != tin_.height(b);
+    const bool valley = makes_valley(here, there) && tin_.height(a) != tin_.height(b);
     const bool drawn = has(tin_.kind(h), EdgeKind::Valley);
     result_.flat_edges += tin_.height(a) == tin_.height(b) ? 1 : 0;
     result_.undrawn_valley_edges += valley && !drawn ? 1 : 0;

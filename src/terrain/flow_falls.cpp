@@ -38,20 +38,13 @@ struct Batch {
 
 struct Corner {
   double x, y, z;
+  [[nodiscard]] Point2 at() const { return {x, y}; }
 };
 
 /// As fall_across, with 0 where that would go on to its exact stage.
 inline double sure_fall(const Corner& a, const Corner& b, const Corner& c) {
-  constexpr double kBound = 10 * 0x1p-53;
-  constexpr double kNoUnderflow = 1e-280;
-  const double ux = b.x - a.x, uy = b.y - a.y;
-  const double vx = c.x - a.x, vy = c.y - a.y;
-  const double rise = (c.z - a.z) * (ux * ux + uy * uy);
-  const double x = ux * vx, y = uy * vy;
-  const double determinant = rise - (b.z - a.z) * (x + y);
-  const double magnitude = std::abs(rise) + std::abs(b.z - a.z) * (std::abs(x) + std::abs(y));
-  const bool sure = (magnitude > kNoUnderflow) & (std::abs(determinant) > kBound * magnitude);
-  return sure ? determinant : 0;
+  const RoundedDeterminant fall = fall_across_rounded(a.at(), a.z, b.at(), b.z, c.at(), c.z);
+  return std::abs(fall.value) > fall.doubt ? fall.value : 0;
 }
 
 inline double squared_slope(const Corner& a, const Corner& b) {

@@ -39,6 +39,8 @@ inline double fractal_height(Point2 p) {
   return height;
 }
 
+inline constexpr double kSpacing = 30;
+
 enum class Pattern { Random, Jittered, Lattice };
 
 struct TerrainPoints {
@@ -46,12 +48,11 @@ struct TerrainPoints {
   std::vector<double> z;
 };
 
-/// About `count` points, one a cell of 30 m.
+/// About `count` points, one a cell of kSpacing metres.
 inline TerrainPoints fractal_terrain(Pattern pattern, std::size_t count) {
   std::mt19937_64 engine(1);
   const auto real = [&engine] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
   const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(count))));
-  constexpr double kCell = 30;
   TerrainPoints points;
   for (std::size_t i = 0; i < side * side; ++i) {
     Point2 p{static_cast<double>(i % side), static_cast<double>(i / side)};
@@ -59,7 +60,7 @@ inline TerrainPoints fractal_terrain(Pattern pattern, std::size_t count) {
     if (pattern == Pattern::Random) {
       p = {static_cast<double>(side) * real(), static_cast<double>(side) * real()};
     }
-    p = {kCell * p.x, kCell * p.y};
+    p = {kSpacing * p.x, kSpacing * p.y};
     points.xy.push_back(p);
     points.z.push_back(fractal_height(p));
   }

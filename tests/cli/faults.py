@@ -19,18 +19,13 @@ import tempfile
 import threading
 import time
 
+sys.dont_write_bytecode = True
+from interrupt import write_points
+
 BINARY, SCRIPT = os.path.abspath(sys.argv[1]), os.path.abspath(__file__)
 MESHES = (".ply", ".nc", ".xml", ".2dm", ".obj", ".off", ".stl", ".glb", ".vtu", ".gpkg", ".fgb", ".shp", ".geojson")
 OLD = b"old"
 rows, faults = [], []
-
-
-def write_points(path, count):
-    noise = random.Random(7)
-    with open(path, "w") as file:
-        file.write("x,y,z\n")
-        for _ in range(count):
-            file.write(f"{noise.uniform(0, 1e4):.3f},{noise.uniform(0, 1e4):.3f},{noise.uniform(0, 100):.2f}\n")
 
 
 def run(*arguments, **options):

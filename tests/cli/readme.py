@@ -21,8 +21,10 @@ COMMANDS = r"^(thalweg|qgis_process|ogr2ogr|gdalinfo|ogrinfo|cd) "
 
 
 def blocks(text):
-    """Pairs of language and text; none for diagrams."""
+    """Pairs of language and text; none for diagrams, nor for what survey_to_model.py runs, which is marked sh."""
     for language, body in re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+        if language == "sh":
+            continue
         if language or re.search(COMMANDS, body, re.MULTILINE):
             yield language or "bash", body
 
@@ -53,7 +55,7 @@ def environment(folder):
 
 
 def command_of(language, body, folder):
-    if language in ("bash", "sh"):
+    if language == "bash":
         return ["bash", "-e", "-c", body]
     path = f"{folder}/.block.{'c' if language == 'c' else 'py'}"
     with open(path, "w", encoding="utf-8") as file:

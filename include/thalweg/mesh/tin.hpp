@@ -102,6 +102,9 @@ class Tin {
   }
   /// The constraint edges, a < b, sorted. Complexity: linear.
   [[nodiscard]] std::vector<ConstraintEdge> constraint_edges() const;
+  /// The same TIN with other heights. Throws: Error{InvalidTin} unless there is one a vertex. Complexity: a
+  /// copy.
+  [[nodiscard]] Tin with_heights(std::vector<double> heights) const;
   /// The same TIN where vertex v has the id number[v]. Throws: Error{InvalidTin} if
   /// the numbers are no permutation; Error{Cancelled}. Complexity: linear.
   [[nodiscard]] Tin renumbered(std::span<const VertexId> number, const Progress& progress) const;

@@ -23,8 +23,6 @@
 namespace thalweg::bench {
 namespace {
 
-constexpr double kSpacing = 30;
-
 void add_lines(Survey& survey, double side) {
   const auto& xy = survey.points.xy;
   const double scale = std::min(1.0, std::sqrt(static_cast<double>(xy.size()) / 1e6));
@@ -105,25 +103,19 @@ Seconds seconds_of_cgal_edges(const Survey& survey, const std::vector<Constraint
 }  // namespace
 
 Survey make_survey(InputKind kind, std::size_t points) {
-  std::mt19937_64 engine(1);
-  const auto real = [&engine] { return static_cast<double>(engine() >> 11U) * 0x1p-53; };
-  const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(points))));
-  const bool random = kind == InputKind::Uniform || kind == InputKind::Lines;
+  const Pattern pattern = kind == InputKind::Lattice    ? Pattern::Lattice
+                          : kind == InputKind::Jittered ? Pattern::Jittered
+                                                        : Pattern::Random;
+  TerrainPoints terrain = fractal_terrain(pattern, points);
   Survey survey;
   survey.sources = {{"points", ""}};
   survey.points.runs = {{0, 0}};
-  survey.points.xy.reserve(side * side);
-  survey.points.z.reserve(side * side);
-  for (std::size_t i = 0; i < side * side; ++i) {
-    Point2 p{static_cast<double>(i % side), static_cast<double>(i / side)};
-    if (kind == InputKind::Jittered) p = {p.x + 0.8 * real() - 0.4, p.y + 0.8 * real() - 0.4};
-    if (random) p = {static_cast<double>(side) * real(), static_cast<double>(side) * real()};
-    p = {kSpacing * p.x, kSpacing * p.y};
-    survey.points.z.push_back(fractal_height(p));
-    if (kind == InputKind::Lattice) p = {500000 + p.x, 5200000 + p.y};
-    survey.points.xy.push_back(p);
+  survey.points.xy = std::move(terrain.xy);
+  survey.points.z = std::move(terrain.z);
+  if (kind == InputKind::Lattice) {
+    for (Point2& p : survey.points.xy) p = {500000 + p.x, 5200000 + p.y};
   }
-  if (kind == InputKind::Lines) add_lines(survey, kSpacing * static_cast<double>(side));
+  if (kind == InputKind::Lines) add_lines(survey, kSpacing * std::round(std::sqrt(points)));
   return survey;
 }
 
@@ -144,11 +136,6 @@ std::vector<ConstraintEdge> line_edges(const Survey& survey) {
     edges.push_back({.a = find(line.xy[0]), .b = find(line.xy[1]), .kind = line.kind});
   }
   return edges;
-}
-
-Seconds Seconds::now() {
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
-          static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
 }
 
 Seconds seconds_of_cgal(const Survey& survey, const std::vector<ConstraintEdge>& edges) {

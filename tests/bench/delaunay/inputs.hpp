@@ -2,6 +2,8 @@
 
 /// The inputs that triangulations are measured on, and CGAL's constrained Delaunay triangulation as measure.
 
+#include "bench/seconds.hpp"
+
 #include <thalweg/mesh/survey.hpp>
 #include <thalweg/mesh/tin.hpp>
 
@@ -24,16 +26,6 @@ Survey make_survey(InputKind kind, std::size_t points);
 
 /// The edges of the survey's lines as ids of its points.
 std::vector<ConstraintEdge> line_edges(const Survey& survey);
-
-/// Seconds by the clock, and of the processor, all threads together.
-struct Seconds {
-  double wall = 0;
-  double processor = 0;
-  Seconds operator-(const Seconds& earlier) const {
-    return {wall - earlier.wall, processor - earlier.processor};
-  }
-  static Seconds now();
-};
 
 /// Seconds of CGAL's constrained Delaunay triangulation of points and edges, as its manual has it:
 /// points in spatial order, each located from the one before; then the edges between vertices known.

@@ -4,6 +4,7 @@
 // the ratio to the triangulation, and that of the times on the clock. Points at random and on a lattice;
 // heights are fractal; the network is of all channels that drain a hundred cells.
 #include "bench/fractal_terrain.hpp"
+#include "bench/seconds.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/terrain/catchments.hpp>
@@ -12,10 +13,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -23,30 +22,21 @@
 namespace thalweg::bench {
 namespace {
 
-struct Seconds {
-  double processor = std::numeric_limits<double>::infinity();
-  double clock = std::numeric_limits<double>::infinity();
-};
-
-Seconds now() {
-  const auto clock = std::chrono::steady_clock::now().time_since_epoch();
-  return {static_cast<double>(std::clock()) / CLOCKS_PER_SEC, std::chrono::duration<double>(clock).count()};
-}
-
 enum Step : std::size_t { Triangulation, Flow, Pits, Network, Catchments, Drainage, kSteps };
 
 /// The least of all runs.
 class Stopwatch {
  public:
-  void start() { start_ = now(); }
+  Stopwatch() { least_.fill({kForever, kForever}); }
+  void start() { start_ = Seconds::now(); }
   void stop(Step step) {
-    const Seconds end = now();
-    least_[step].processor = std::min(least_[step].processor, end.processor - start_.processor);
-    least_[step].clock = std::min(least_[step].clock, end.clock - start_.clock);
+    const Seconds lap = Seconds::now() - start_;
+    least_[step] = {std::min(least_[step].wall, lap.wall), std::min(least_[step].processor, lap.processor)};
   }
   [[nodiscard]] Seconds least(Step step) const { return least_[step]; }
 
  private:
+  static constexpr double kForever = std::numeric_limits<double>::infinity();
   Seconds start_;
   std::array<Seconds, kSteps> least_;
 };
@@ -96,7 +86,7 @@ void print_row(const char* name, Pattern pattern, std::size_t count) {
   std::printf("| %s | %.0f | %zu | %zu | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n",
               name, n, counts.pits, counts.reaches, counts.catchments, micros(Triangulation), micros(Flow),
               micros(Pits), micros(Network), micros(Catchments), 1e6 * all.processor / n,
-              all.processor / triangulation.processor, all.clock / triangulation.clock);
+              all.processor / triangulation.processor, all.wall / triangulation.wall);
   std::fflush(stdout);
 }
 
