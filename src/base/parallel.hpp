@@ -6,6 +6,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -23,6 +24,19 @@ void for_each_block(std::size_t count, std::size_t block, const Progress& progre
     progress.check();
     body(b * block, std::min(count, (b + 1) * block));
   });
+}
+
+/// Calls `body(begin, end)` for a range a thread, in parallel; the ranges tile [0, count). For loops that
+/// read everything in order, which costs little, and write at random, each within its range. The ranges
+/// depend on the thread count: what is written must not.
+template <class Body>
+void for_each_range(std::size_t count, const Progress& progress, const Body& body) {
+  constexpr std::size_t kLeastRange = 1 << 15;
+  constexpr std::size_t kMostRanges = 8;  // each reads the same
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::size_t ranges = std::clamp<std::size_t>(count / kLeastRange, 1, std::min(threads, kMostRanges));
+  for_each_block(ranges, 1, progress,
+                 [&](std::size_t i, std::size_t) { body(count * i / ranges, count * (i + 1) / ranges); });
 }
 
 /// The part of a phase that a loop takes, as fractions of the phase.

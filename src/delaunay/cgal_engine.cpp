@@ -63,10 +63,10 @@ Triangulated triangulate_by_cgal(std::span<const Point2> points, std::span<const
       return result;
     }
   }
-  result.triangles.reserve(2 * points.size());
+  result.triangles.corners.reserve(2 * points.size());
   for (auto face = cdt.finite_faces_begin(); face != cdt.finite_faces_end(); ++face) {
-    result.triangles.push_back({VertexId{face->vertex(0)->info()}, VertexId{face->vertex(1)->info()},
-                                VertexId{face->vertex(2)->info()}});
+    result.triangles.corners.push_back({VertexId{face->vertex(0)->info()}, VertexId{face->vertex(1)->info()},
+                                        VertexId{face->vertex(2)->info()}});
   }
   return result;
 }

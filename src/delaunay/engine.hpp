@@ -16,7 +16,8 @@ namespace thalweg::detail {
 using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
 struct Triangulated {
-  std::vector<Triangle> triangles;     ///< counter-clockwise; none: all points are collinear
+  /// No corners: all points are collinear. No twins: neighbours are not known. `number`: ids of points.
+  LinkedTriangles triangles;
   std::optional<VertexPair> crossing;  ///< an edge that crosses another one, or a vertex: no triangles then
 };
 

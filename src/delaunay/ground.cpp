@@ -23,6 +23,7 @@
 #include <thalweg/delaunay/ground.hpp>
 #include <thalweg/delaunay/surface.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 
 #include <fmt/format.h>
 

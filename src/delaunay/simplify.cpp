@@ -17,6 +17,7 @@
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/delaunay/trim.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
 
 #include <algorithm>

@@ -4,6 +4,7 @@
 // 2. Delaunay triangulation of the vertices (flat_delaunay.cpp), then constraint edges (edge_insertion.cpp).
 //    Both decide by the tie rule, which makes the outcome unique: no order matters.
 // 3. Finite cells become triangles of the vertices as they were given.
+#include "base/parallel.hpp"
 #include "edge_insertion.hpp"
 #include "engine.hpp"
 #include "flat_delaunay.hpp"
@@ -20,6 +21,37 @@
 namespace thalweg {
 
 namespace detail {
+
+namespace {
+
+constexpr std::size_t kBlock = 8192;
+
+LinkedTriangles finite_cells(std::span<const Cell> cells, std::uint32_t infinity) {
+  std::vector<TriangleId> place(cells.size());
+  std::uint32_t count = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto [u, v, w] = cells[c].vertex;
+    if (u != infinity && v != infinity && w != infinity) place[c] = TriangleId{count++};
+  }
+  LinkedTriangles finite;
+  finite.corners.resize(count);
+  finite.twins.resize(3 * std::size_t{count});
+  for_each_block(cells.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      if (!place[c].valid()) continue;
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        finite.corners[place[c].index()][corner] = VertexId{cells[c].vertex[corner]};
+        const std::uint32_t across = cells[c].neighbour[before(corner)];
+        const TriangleId twin = place[cell_of(across)];
+        if (!twin.valid()) continue;
+        finite.twins[Tin::halfedge(place[c], corner).index()] = Tin::halfedge(twin, after(corner_of(across)));
+      }
+    }
+  });
+  return finite;
+}
+
+}  // namespace
 
 Triangulated triangulate_flat(std::span<const Point2> points, std::span<const VertexPair> edges,
                               Progress& progress) {
@@ -45,13 +77,9 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Ve
       return result;
     }
   }
-  const std::uint32_t infinity = at.infinity();
-  result.triangles.reserve(cells.size());
-  for (const Cell& cell : cells) {
-    const auto [a, b, c] = cell.vertex;
-    if (a == infinity || b == infinity || c == infinity) continue;
-    result.triangles.push_back({VertexId{order[a]}, VertexId{order[b]}, VertexId{order[c]}});
-  }
+  result.triangles = finite_cells(cells, at.infinity());
+  result.triangles.number.reserve(order.size());
+  for (const std::uint32_t v : order) result.triangles.number.emplace_back(v);
   return result;
 }
 
@@ -96,13 +124,16 @@ Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
                 "the constraint edge from " + describe(points[result.crossing->first]) + " to " +
                     describe(points[result.crossing->second]) + " crosses another one, or a vertex");
   }
-  if (result.triangles.empty()) {
+  if (result.triangles.corners.empty()) {
     throw Error(ErrorCode::Collinear, "all " + std::to_string(points.size()) +
                                           " points lie on one line, from " + describe(points.front()) +
                                           "; a triangulation needs a point beside it");
   }
   progress.advance(1);
-  return {std::move(points), std::move(heights), std::move(result.triangles), constraints};
+  if (result.triangles.twins.empty()) {
+    return {std::move(points), std::move(heights), std::move(result.triangles.corners), constraints};
+  }
+  return {std::move(points), std::move(heights), std::move(result.triangles), constraints, progress};
 }
 
 }  // namespace thalweg

@@ -1,10 +1,12 @@
 // The flat TIN.
 //
-// 1. Turn each triangle so that its smallest id comes first, bucket triangles by that id, sort each bucket.
-// 2. Bucket halfedges by origin; the twin of a -> b is looked up in the bucket of b, whose size is a degree.
-// Large buckets
-//    are sorted by target and bisected, so that a hub of many triangles costs no more than other vertices.
+// 1. Triangles are sorted (sort_triangles.cpp).
+// 2. Halfedges are bucketed by their origin: a vertex' fan. Large fans are sorted by target and bisected, so
+//    that a hub of many triangles costs no more than other vertices.
+// 3. Where neighbours are not known, the twin of a -> b is looked up in the fan of a.
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
+#include "sort_triangles.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
@@ -30,6 +32,28 @@ std::string describe(const Triangle& t) {
          std::to_string(t[2].value());
 }
 
+void check_corners(const Triangle& t, std::size_t vertex_count) {
+  for (const VertexId v : t) {
+    if (v.index() < vertex_count) continue;
+    throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " names a vertex that does not exist");
+  }
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+    throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " repeats a vertex");
+  }
+}
+
+/// Neighbours lie anywhere in memory: asks in time for what the triangles after t will need.
+void fetch_ahead(const LinkedTriangles& linked, const SortedTriangles& sorted, std::size_t t) {
+  constexpr std::size_t kNear = 12, kFar = 24;  // triangles; measured, with little between 8 and 32
+  if (t + kFar >= sorted.taken.size()) return;
+  prefetch(&linked.twins[sorted.taken[t + kFar].index()]);
+  if (!linked.kinds.empty()) prefetch(&linked.kinds[sorted.taken[t + kFar].index()]);
+  const std::size_t first = sorted.taken[t + kNear].index() / 3 * 3;
+  for (std::size_t h = first; h < first + 3; ++h) {
+    if (linked.twins[h].valid()) prefetch(&sorted.moved[linked.twins[h].index() / 3]);
+  }
+}
+
 void check_heights(std::span<const double> heights, std::span<const Point2> points) {
   if (heights.size() == points.size()) return;
   throw Error(ErrorCode::InvalidTin, "a TIN needs as many heights as points");
@@ -41,53 +65,82 @@ Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Tr
          std::span<const ConstraintEdge> constraints)
     : points_(std::move(points)), heights_(std::move(heights)), triangles_(std::move(triangles)) {
   check_heights(heights_, points_);
-  sort_triangles();
+  for (const Triangle& t : triangles_) check_corners(t, points_.size());
+  triangles_ = sort_triangles(triangles_, {}, points_.size(), Progress()).triangles;
+  list_fans(Progress());
   link_halfedges();
+  kinds_.assign(halfedge_count(), EdgeKind::None);
   mark_constraints(constraints);
 }
 
-void Tin::sort_triangles() {
-  std::vector<std::uint32_t> start(points_.size() + 1, 0);
-  for (Triangle& t : triangles_) {
-    for (const VertexId v : t) {
-      if (v.index() >= points_.size()) {
-        throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " names a vertex that does not exist");
-      }
-    }
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-      throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " repeats a vertex");
-    }
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    ++start[t[0].index() + 1];
-  }
-  for (std::size_t v = 0; v < points_.size(); ++v) start[v + 1] += start[v];
-  std::vector<Triangle> sorted(triangles_.size());
-  std::vector<std::uint32_t> fill(start.begin(), start.end() - 1);
-  for (const Triangle& t : triangles_) sorted[fill[t[0].index()]++] = t;
-  for (std::size_t v = 0; v < points_.size(); ++v) {
-    std::sort(sorted.begin() + start[v], sorted.begin() + start[v + 1]);
-  }
-  triangles_ = std::move(sorted);
+Tin::Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangles linked,
+         std::span<const ConstraintEdge> constraints, const Progress& progress)
+    : points_(std::move(points)), heights_(std::move(heights)) {
+  check_heights(heights_, points_);
+  take(std::move(linked), progress);
+  mark_constraints(constraints);
 }
 
-void Tin::list_fans() {
-  const std::size_t count = halfedge_count();
-  first_outgoing_.assign(points_.size() + 1, 0);
-  for (const Triangle& t : triangles_) {
-    for (const VertexId v : t) ++first_outgoing_[v.index() + 1];
-  }
-  for (std::size_t v = 0; v < points_.size(); ++v) first_outgoing_[v + 1] += first_outgoing_[v];
-  outgoing_.resize(count);
-  std::vector<std::uint32_t> fill(first_outgoing_.begin(), first_outgoing_.end() - 1);
-  for (std::size_t h = 0; h < count; ++h) outgoing_[fill[origin(HalfedgeId{h}).index()]++] = HalfedgeId{h};
+std::vector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress) {
+  SortedTriangles sorted = sort_triangles(linked.corners, linked.number, points_.size(), progress);
+  triangles_ = std::move(sorted.triangles);
+  linked.corners = {};
+  linked.number = {};
+  twins_.resize(halfedge_count());
+  kinds_.resize(halfedge_count());
+  std::atomic<std::size_t> rim = 0;
+  for_each_block(triangles_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    std::size_t on_rim = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      fetch_ahead(linked, sorted, t);
+      for (std::size_t side = 0; side < 3; ++side) {
+        const HalfedgeId old = SortedTriangles::turned(sorted.taken[t], side);
+        const HalfedgeId twin = linked.twins[old.index()];
+        if (twin.valid()) twins_[3 * t + side] = sorted.now(twin);
+        on_rim += twin.valid() ? 0 : 1;
+        if (!linked.kinds.empty()) kinds_[3 * t + side] = linked.kinds[old.index()];
+      }
+    }
+    rim += on_rim;
+  });
+  edge_count_ = (halfedge_count() + rim) / 2;
+  linked = {};
+  sorted.moved = {};
+  list_fans(progress);
+  return std::move(sorted.taken);
+}
 
-  for (std::size_t v = 0; v < points_.size(); ++v) {
-    sort_large_fan({outgoing_.begin() + first_outgoing_[v], outgoing_.begin() + first_outgoing_[v + 1]});
-  }
+void Tin::list_fans(const Progress& progress) {
+  first_outgoing_.assign(points_.size() + 1, 0);
+  outgoing_.resize(halfedge_count());
+  const auto for_each_halfedge = [&](const auto& body) {
+    for_each_range(points_.size(), progress, [&](std::size_t begin, std::size_t end) {
+      const VertexId low{begin}, high{end};
+      for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        for (std::size_t side = 0; side < 3; ++side) {
+          const VertexId v = triangles_[t][side];
+          if (v >= low && v < high) body(v, 3 * t + side);
+        }
+      }
+    });
+  };
+  for_each_halfedge([&](VertexId v, std::size_t) { ++first_outgoing_[v.index() + 1]; });
+  for (std::size_t v = 0; v < points_.size(); ++v) first_outgoing_[v + 1] += first_outgoing_[v];
+  std::vector<std::uint32_t> fill(first_outgoing_.begin(), first_outgoing_.end() - 1);
+  for_each_halfedge([&](VertexId v, std::size_t h) { outgoing_[fill[v.index()]++] = HalfedgeId{h}; });
+  for_each_block(points_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::span<HalfedgeId> fan(outgoing_.begin() + first_outgoing_[v],
+                                      outgoing_.begin() + first_outgoing_[v + 1]);
+      if (fan.size() <= kFewEdges) continue;
+      std::sort(fan.begin(), fan.end(), [&](HalfedgeId g, HalfedgeId h) {
+        return std::pair(target(g), g) < std::pair(target(h), h);
+      });
+    }
+  });
 }
 
 void Tin::link_halfedges() {
-  list_fans();
   // The triangles around a vertex hold all halfedges that leave it and all that reach it, so a small fan
   // finds its own twins without a look at others.
   twins_.resize(halfedge_count());
@@ -142,14 +195,7 @@ void Tin::link_halfedges() {
   edge_count_ = (halfedge_count() + rim) / 2;
 }
 
-void Tin::sort_large_fan(std::span<HalfedgeId> fan) const {
-  if (fan.size() <= kFewEdges) return;
-  std::sort(fan.begin(), fan.end(),
-            [&](HalfedgeId g, HalfedgeId h) { return std::pair(target(g), g) < std::pair(target(h), h); });
-}
-
 void Tin::mark_constraints(std::span<const ConstraintEdge> constraints) {
-  kinds_.assign(halfedge_count(), EdgeKind::None);
   for (const ConstraintEdge& edge : constraints) {
     bool found = false;
     for (const auto& [from, to] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
@@ -205,48 +251,6 @@ Tin Tin::with_heights(std::vector<double> heights) const {
   Tin tin = *this;
   tin.heights_ = std::move(heights);
   return tin;
-}
-
-Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges) {
-  std::vector<Triangle> triangles(tin.triangles().begin(), tin.triangles().end());
-  for (const HalfedgeId h : edges) {
-    const HalfedgeId other = tin.twin(h);
-    if (!other.valid() || tin.constrained(h)) {
-      throw Error(ErrorCode::InvalidTin, "edge " + std::to_string(tin.origin(h).value()) + ", " +
-                                             std::to_string(tin.target(h).value()) +
-                                             " cannot be flipped: it is on the rim or constrained");
-    }
-    triangles[Tin::triangle_of(h).index()] = {tin.apex(h), tin.origin(h), tin.apex(other)};
-    triangles[Tin::triangle_of(other).index()] = {tin.apex(other), tin.target(h), tin.apex(h)};
-  }
-  const std::vector<ConstraintEdge> constraints = tin.constraint_edges();
-  return {{tin.points().begin(), tin.points().end()},
-          {tin.heights().begin(), tin.heights().end()},
-          std::move(triangles),
-          constraints};
-}
-
-Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep) {
-  if (std::find(keep.begin(), keep.end(), false) == keep.end()) return tin;
-  std::vector<Triangle> triangles;
-  std::vector<ConstraintEdge> constraints;
-  for (std::size_t t = 0; t < tin.triangle_count(); ++t) {
-    if (!keep[t]) continue;
-    triangles.push_back(tin.triangle(TriangleId{t}));
-    for (std::size_t side = 0; side < 3; ++side) {
-      const HalfedgeId h = Tin::halfedge(TriangleId{t}, side);
-      if (tin.constrained(h)) constraints.push_back({tin.origin(h), tin.target(h), tin.kind(h)});
-    }
-  }
-  return {{tin.points().begin(), tin.points().end()},
-          {tin.heights().begin(), tin.heights().end()},
-          std::move(triangles),
-          constraints};
-}
-
-Tin keep_triangles(Tin&& tin, const std::vector<bool>& keep) {
-  if (std::find(keep.begin(), keep.end(), false) == keep.end()) return std::move(tin);
-  return keep_triangles(std::as_const(tin), keep);
 }
 
 }  // namespace thalweg

@@ -3,7 +3,10 @@
 // 1. What one vertex, one triangle or one halfedge shows alone is scanned in parallel; each scan keeps the
 //    first few finds.
 // 2. Halfedges are bucketed by origin. Two with the same target break a law; the twin of a -> b is looked
-//    up among those of b (by bisection where b has many).
+//    up among those of b (by bisection where b has many). A TIN brings such lists, and twins. Lists are right
+//    if each has only halfedges of its vertex, to different targets, and there are as many in all as there
+//    are halfedges; twins, if each leads back and joins the same vertices, and where there is none, no other
+//    halfedge does. Where all that holds nothing is built anew.
 // 3. Overlap, touching vertices and equal positions are told from the rim alone (rim_sweep.cpp); that holds
 //    once all triangles are counter-clockwise and edges are used once a side. Crossed constraint edges need
 //    no test: a constraint edge is an edge of a triangle, and triangles do not overlap.
@@ -46,7 +49,7 @@ class Fans {
   Fans() = default;
   // Pre: ids of triangles exist.
   Fans(std::span<const Triangle> triangles, std::size_t vertex_count)
-      : triangles_(triangles), start_(vertex_count + 1, 0), spokes_(3 * triangles.size()) {
+      : start_(vertex_count + 1, 0), spokes_(3 * triangles.size()) {
     for (const Triangle& t : triangles) {
       for (const VertexId v : t) ++start_[v.index() + 1];
     }
@@ -64,8 +67,6 @@ class Fans {
   }
   static VertexId target(Spoke s) { return VertexId{s >> 32}; }
   static HalfedgeId halfedge(Spoke s) { return HalfedgeId{s & 0xffffffffU}; }
-  [[nodiscard]] VertexId origin(HalfedgeId h) const { return triangles_[h.index() / 3][h.index() % 3]; }
-  [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
   [[nodiscard]] std::span<const Spoke> of(VertexId v) const {
     return std::span(spokes_).subspan(start_[v.index()], start_[v.index() + 1] - start_[v.index()]);
   }
@@ -90,7 +91,6 @@ class Fans {
  private:
   static Spoke spoke(VertexId to, std::size_t h) { return Spoke{to.value()} << 32 | h; }
 
-  std::span<const Triangle> triangles_;
   std::vector<std::uint32_t> start_;
   std::vector<Spoke> spokes_;
 };
@@ -105,9 +105,14 @@ class Inspection {
     check_numbers();
     check_triangles();
     if (ids_exist_) {
-      fans_ = Fans(tin_.triangles, tin_.points.size());
-      check_edges();
-      check_fans();
+      linked_ = lists_are_right() && twins_are_right();
+      if (linked_) {
+        check_kinds();
+      } else {
+        fans_ = Fans(tin_.triangles, tin_.points.size());
+        check_edges();
+        check_fans();
+      }
       check_constraints();
       check_isolated();
       if (plane_is_sound_) check_overlap(tin_.points, violation::kOverlap);
@@ -164,7 +169,7 @@ class Inspection {
            ")";
   }
   [[nodiscard]] std::string edge_name(std::size_t h) const {
-    return "edge " + name(fans_.origin(HalfedgeId{h}), fans_.target(HalfedgeId{h}));
+    return "edge " + name(origin(HalfedgeId{h}), target(HalfedgeId{h}));
   }
 
   void check_length(std::size_t length, std::size_t expected, const char* what) {
@@ -237,6 +242,63 @@ class Inspection {
     });
   }
 
+  [[nodiscard]] VertexId origin(HalfedgeId h) const { return tin_.triangles[h.index() / 3][h.index() % 3]; }
+  [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
+  // Pre: lists_are_right().
+  [[nodiscard]] std::span<const HalfedgeId> list_of(VertexId v) const {
+    const std::size_t begin = tin_.first_outgoing[v.index()];
+    return tin_.outgoing.subspan(begin, tin_.first_outgoing[v.index() + 1] - begin);
+  }
+
+  // False as well if a list is too long to be read through for each of its edges.
+  [[nodiscard]] bool lists_are_right() const {
+    constexpr std::size_t kLongest = 256;
+    const std::size_t n = tin_.points.size(), halfedges = 3 * tin_.triangles.size();
+    if (tin_.first_outgoing.size() != n + 1 || tin_.outgoing.size() != halfedges) return false;
+    if (tin_.first_outgoing[0] != 0 || tin_.first_outgoing[n] != halfedges) return false;
+    const auto wrong = [&](std::size_t v) {
+      const std::size_t begin = tin_.first_outgoing[v], end = tin_.first_outgoing[v + 1];
+      if (end < begin || end > halfedges || end - begin > kLongest) return true;
+      thread_local std::vector<VertexId> targets;
+      targets.clear();
+      for (std::size_t i = begin; i < end; ++i) {
+        const HalfedgeId h = tin_.outgoing[i];
+        if (h.index() >= halfedges || origin(h) != VertexId{v}) return true;
+        targets.push_back(target(h));
+      }
+      std::sort(targets.begin(), targets.end());
+      return std::adjacent_find(targets.begin(), targets.end()) != targets.end();
+    };
+    return find_broken(n, wrong).count == 0;
+  }
+
+  // Pre: lists_are_right().
+  [[nodiscard]] bool twins_are_right() const {
+    if (tin_.twins.size() != 3 * tin_.triangles.size()) return false;
+    const auto wrong = [&](std::size_t i) {
+      const HalfedgeId h{i}, twin = tin_.twins[i];
+      if (twin.valid()) {
+        return twin.index() >= tin_.twins.size() || tin_.twins[twin.index()] != h ||
+               origin(twin) != target(h) || target(twin) != origin(h);
+      }
+      return std::ranges::any_of(list_of(target(h)), [&](HalfedgeId g) { return target(g) == origin(h); });
+    };
+    return find_broken(tin_.twins.size(), wrong).count == 0;
+  }
+
+  // For each halfedge the one on the other side.
+  [[nodiscard]] std::span<const HalfedgeId> opposites() const {
+    return linked_ ? tin_.twins : std::span<const HalfedgeId>(opposite_);
+  }
+  [[nodiscard]] bool is_edge(VertexId a, VertexId b) const {
+    if (!linked_) return fans_.find(a, b).valid() || fans_.find(b, a).valid();
+    const auto leads = [&](VertexId from, VertexId to) {
+      return std::ranges::any_of(list_of(from), [&](HalfedgeId h) { return target(h) == to; });
+    };
+    return leads(a, b) || leads(b, a);
+  }
+  [[nodiscard]] bool isolated(VertexId v) const { return linked_ ? list_of(v).empty() : fans_.of(v).empty(); }
+
   void check_edges() {
     const std::size_t n = tin_.points.size();
     const auto repeats = [&](std::size_t v) { return fans_.find_repeated(VertexId{v}).valid(); };
@@ -254,13 +316,17 @@ class Inspection {
         return "halfedge " + std::to_string(h) + " (" + edge_name(h) + ") has a wrong twin";
       });
     }
-    if (tin_.kinds.size() == opposite_.size()) {
-      const auto differ = [&](std::size_t h) {
-        return opposite_[h].index() < h && tin_.kinds[h] != tin_.kinds[opposite_[h].index()];
-      };
-      report(violation::kKindsDiffer, find_broken(opposite_.size(), differ),
-             [&](std::size_t h) { return "the two sides of " + edge_name(h) + " differ in kind"; });
-    }
+    check_kinds();
+  }
+
+  void check_kinds() {
+    const std::span<const HalfedgeId> opposite = opposites();
+    if (tin_.kinds.size() != opposite.size()) return;
+    const auto differ = [&](std::size_t h) {
+      return opposite[h].index() < h && tin_.kinds[h] != tin_.kinds[opposite[h].index()];
+    };
+    report(violation::kKindsDiffer, find_broken(opposite.size(), differ),
+           [&](std::size_t h) { return "the two sides of " + edge_name(h) + " differ in kind"; });
   }
 
   // Each pair is found once, from its smaller vertex; so no two threads write the same place.
@@ -288,7 +354,7 @@ class Inspection {
       if (end < begin || end > tin_.outgoing.size() || end - begin != fans_.of(VertexId{v}).size())
         return true;
       return !std::all_of(tin_.outgoing.begin() + begin, tin_.outgoing.begin() + end, [&](HalfedgeId h) {
-        return h.index() < seen.size() && fans_.origin(h) == VertexId{v} && seen[h.index()]++ == 0;
+        return h.index() < seen.size() && origin(h) == VertexId{v} && seen[h.index()]++ == 0;
       });
     };
     report(violation::kFanWrong, find_broken(tin_.points.size(), wrong), [](std::size_t v) {
@@ -301,7 +367,7 @@ class Inspection {
     const auto missing = [&](std::size_t i) {
       const ConstraintEdge& e = tin_.constraints[i];
       if (e.a.index() >= n || e.b.index() >= n) return true;
-      return !fans_.find(e.a, e.b).valid() && !fans_.find(e.b, e.a).valid();
+      return !is_edge(e.a, e.b);
     };
     report(violation::kConstraintNoEdge, find_broken(tin_.constraints.size(), missing), [&](std::size_t i) {
       return "constraint edge " + name(tin_.constraints[i].a, tin_.constraints[i].b) +
@@ -311,7 +377,7 @@ class Inspection {
 
   void check_isolated() {
     for (std::size_t v = 0; v < tin_.points.size(); ++v) {
-      if (fans_.of(VertexId{v}).empty()) isolated_.push_back(VertexId{v});
+      if (isolated(VertexId{v})) isolated_.push_back(VertexId{v});
     }
     if (isolated_policy_ == IsolatedVertices::Allow) return;
     Finds finds;
@@ -322,8 +388,9 @@ class Inspection {
 
   void check_overlap(std::span<const Point2> xy, int code) {
     if (rim_.empty()) {
-      for (std::size_t h = 0; h < opposite_.size(); ++h) {
-        if (!opposite_[h].valid()) rim_.push_back({fans_.origin(HalfedgeId{h}), fans_.target(HalfedgeId{h})});
+      const std::span<const HalfedgeId> opposite = opposites();
+      for (std::size_t h = 0; h < opposite.size(); ++h) {
+        if (!opposite[h].valid()) rim_.push_back({origin(HalfedgeId{h}), target(HalfedgeId{h})});
       }
     }
     const bool written = code == violation::kOverlapInWritten;
@@ -385,6 +452,7 @@ class Inspection {
   bool ids_exist_ = false;
   bool plane_is_sound_ = false;
   bool written_is_sound_ = false;
+  bool linked_ = false;  ///< lists and twins of the TIN are right; else these stand in for them
   Fans fans_;
   std::vector<HalfedgeId> opposite_;
   std::vector<RimEdge> rim_;

@@ -18,6 +18,7 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/trim.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/pipeline/build.hpp>
 
 #include <algorithm>
@@ -191,6 +192,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   terrain.mode = ground.mode;
   survey = {};
   terrain.ground = std::move(ground.tin);
+  ground = {};
   terrain.keep = surface_triangles(terrain, read.nodata, plane, config.max_edge_m, progress);
   note_lost_edges(terrain, report);
   note_antimeridian(terrain, plane, report);

@@ -19,6 +19,7 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/order/order_tin.hpp>
 
 #include <algorithm>
@@ -84,15 +85,13 @@ void choose_first_order(Labelled& labelled, const Terrain& terrain, const RunCon
       optimize_first_order(labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
   labelled.options.proof = nullptr;
   if (proof) proof->finish();
-  std::vector<HalfedgeId> flips;
+  labelled.flips.clear();
   labelled.new_diagonals.clear();
   for (std::size_t q = 0; q < labelled.quadrilaterals.size(); ++q) {
     if (labelled.result.flipped[q] == 0) continue;
-    flips.push_back(labelled.quadrilaterals[q].diagonal);
+    labelled.flips.push_back(labelled.quadrilaterals[q].diagonal);
     labelled.new_diagonals.push_back({labelled.quadrilaterals[q].s, labelled.quadrilaterals[q].t});
   }
-  progress.check();
-  labelled.tin = flip_edges(labelled.delaunay, flips);
 }
 
 void choose_higher_order(Labelled& labelled, const SurfaceFaces& faces, const LabellingConfig& labelling,
@@ -180,7 +179,9 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
   };
   if (run.condition.changes_pits()) {
     choose({});
-    condition(labelled, Tin(std::move(labelled.tin)), run, progress);
+    const Tin chosen =
+        run.labelling.by_faces() ? std::move(labelled.tin) : flip_edges(labelled.delaunay, labelled.flips);
+    condition(labelled, chosen, run, progress);
   } else if (!run.condition.steps.empty()) {
     condition(labelled, labelled.delaunay, run, progress);
   }

@@ -173,21 +173,4 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces&
   return choice;
 }
 
-std::vector<std::uint16_t> renumbered_orders(const Tin& tin, const std::vector<std::uint16_t>& orders,
-                                             const std::vector<VertexId>& number) {
-  std::vector<std::pair<Triangle, std::uint16_t>> moved;
-  moved.reserve(orders.size());
-  for (std::size_t t = 0; t < orders.size(); ++t) {
-    Triangle corners = tin.triangle(TriangleId{t});
-    for (VertexId& v : corners) v = number[v.index()];
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    moved.emplace_back(corners, orders[t]);
-  }
-  std::sort(moved.begin(), moved.end());
-  std::vector<std::uint16_t> renumbered;
-  renumbered.reserve(moved.size());
-  for (const auto& [corners, order] : moved) renumbered.push_back(order);
-  return renumbered;
-}
-
 }  // namespace thalweg

@@ -44,8 +44,4 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces&
                                         const OptimizeOptions& options, const LabellingConfig& labelling,
                                         Progress& progress);
 
-/// Orders of the triangles of a TIN as those of the same TIN with other ids. Complexity: n log n.
-std::vector<std::uint16_t> renumbered_orders(const Tin& tin, const std::vector<std::uint16_t>& orders,
-                                             const std::vector<VertexId>& number);
-
 }  // namespace thalweg

@@ -11,6 +11,7 @@
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/delaunay/trim.hpp>
 #include <thalweg/io/read_tin.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/build.hpp>
 

@@ -10,6 +10,7 @@
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/simplify.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 
 #include <algorithm>
 #include <numeric>

@@ -16,6 +16,7 @@
 #include <thalweg/io/picture.hpp>
 #include <thalweg/io/write_features.hpp>
 #include <thalweg/io/write_tin.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/terrain/consistency.hpp>
@@ -83,7 +84,7 @@ void refuse_violations(const Tin& tin, const Terrain& terrain, const Progress& p
   std::vector<Violation> violations = validate(tin, terrain.continuous);
   if (violations.empty()) return;
   if (!terrain.number.empty()) {
-    violations = validate(tin.renumbered(terrain.number, progress),
+    violations = validate(renumber(tin, terrain.number, progress).tin,
                           renumbered<Point2>(terrain.continuous, terrain.number));
   }
   throw Error(ErrorCode::InvalidTin, "the TIN breaks law " + std::to_string(violations.front().code) + ": " +
@@ -165,12 +166,61 @@ void note_assumptions(const CrsInfo& crs, Report& report) {
 
 namespace {
 
+bool draws_water(const Tin& tin) {
+  const std::span<const EdgeKind> kinds = tin.arrays().kinds;
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](EdgeKind kind) { return has(kind, EdgeKind::Valley | EdgeKind::Ridge); });
+}
+
+/// Whether drawn valleys and ridges hold, under the ids of the outputs.
+Consistency consistency_of(const Tin& tin, const Terrain& terrain, const RunContext& run) {
+  Consistency consistency = check_consistency(tin, run.plane.scale());
+  for (Inconsistency& place : consistency.places) {
+    if (terrain.number.empty()) continue;
+    place.from = terrain.number[place.from.index()];
+    place.to = terrain.number[place.to.index()];
+  }
+  return consistency;
+}
+
+/// What is told of the Delaunay triangulation next to the result. Returns its pits if a picture wants them.
+std::vector<std::uint8_t> describe_delaunay(const Labelled& labelled, const Terrain& terrain,
+                                            const RunContext& run, Report& report) {
+  const PitSummary pits = find_pits(labelled.delaunay);
+  report.pits_delaunay = describe_pits(pits);
+  report.tin.angle_histogram_delaunay = measure(labelled.delaunay, run.plane.scale()).angle_histogram;
+  if (draws_water(labelled.delaunay)) {
+    report.consistency = {consistency_of(labelled.delaunay, terrain, run), {}};
+  }
+  if (run.outputs.picture.empty()) return {};
+  return mark_pits(labelled.delaunay, pits.is_pit);
+}
+
+/// Flips what was chosen, and measures errors at points left out before and after. Takes the Delaunay
+/// triangulation, of which none needs more then.
+void flip_chosen(Labelled& labelled, const Terrain& terrain, const RunContext& run, Report& report) {
+  labelled.quadrilaterals = {};
+  if (run.labelling.by_faces()) return;
+  if (!report.simplification) {
+    labelled.tin = flip_edges(std::move(labelled.delaunay), labelled.flips);
+    return;
+  }
+  labelled.tin = flip_edges(labelled.delaunay, labelled.flips);
+  const double unit = run.plane.vertical_metres_per_unit();
+  const SourceError delaunay = measure_error(labelled.delaunay, terrain.left_out);
+  const SourceError result =
+      measure_error(labelled.tin, relocated(terrain.left_out, labelled.delaunay, labelled.tin));
+  report.simplification->barred_diagonals = labelled.barred;
+  report.simplification->largest_error_m = {delaunay.largest * unit, result.largest * unit};
+  report.simplification->rms_error_m = {delaunay.rms * unit, result.rms * unit};
+}
+
 void describe_result(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
-                     Report& report) {
+                     const PitSummary& pits, Report& report) {
   ReportTin tin = describe_tin(labelled.tin, run.plane, terrain.written);
   tin.dropped_rim_triangles = report.tin.dropped_rim_triangles;
   tin.vertices_left_out = report.tin.vertices_left_out;
-  tin.angle_histogram_delaunay = measure(labelled.delaunay, run.plane.scale()).angle_histogram;
+  tin.angle_histogram_delaunay = report.tin.angle_histogram_delaunay;
   tin.max_order = std::max<unsigned>(labelled.delaunay_order, labelled.new_diagonals.empty() ? 0 : 1);
   if (labelled.higher_order) {
     tin.max_order = *std::max_element(labelled.orders.begin(), labelled.orders.end());
@@ -180,37 +230,14 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   report.digest = digest_of(labelled.tin, terrain.written);
   report.first_order = describe_structure(labelled.result, run.labelling);
   report.higher_order = labelled.higher_order;
-  if (report.simplification) {
-    const double unit = run.plane.vertical_metres_per_unit();
-    const SourceError delaunay = measure_error(labelled.delaunay, terrain.left_out);
-    const SourceError result =
-        measure_error(labelled.tin, relocated(terrain.left_out, labelled.delaunay, labelled.tin));
-    report.simplification->barred_diagonals = labelled.barred;
-    report.simplification->largest_error_m = {delaunay.largest * unit, result.largest * unit};
-    report.simplification->rms_error_m = {delaunay.rms * unit, result.rms * unit};
-  }
   report.criteria = describe_criteria(labelled.result);
+  report.pits_result = describe_pits(pits);
+  if (report.consistency) report.consistency->result = consistency_of(labelled.tin, terrain, run);
 }
 
-bool draws_water(const Tin& tin) {
-  const std::span<const EdgeKind> kinds = tin.arrays().kinds;
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [](EdgeKind kind) { return has(kind, EdgeKind::Valley | EdgeKind::Ridge); });
-}
-
-/// Whether drawn valleys and ridges hold, and which heights changed, under the ids of the outputs.
-void describe_water(const Labelled& labelled, const Terrain& terrain, const RunContext& run, Report& report) {
-  if (draws_water(labelled.tin)) {
-    report.consistency = {check_consistency(labelled.delaunay, run.plane.scale()),
-                          check_consistency(labelled.tin, run.plane.scale())};
-    for (Consistency* consistency : {&report.consistency->delaunay, &report.consistency->result}) {
-      for (Inconsistency& place : consistency->places) {
-        if (terrain.number.empty()) continue;
-        place.from = terrain.number[place.from.index()];
-        place.to = terrain.number[place.to.index()];
-      }
-    }
-  }
+/// Which heights changed, under the ids of the outputs.
+void describe_changes(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
+                      Report& report) {
   if (!labelled.conditioned) return;
   const std::span<const Point2> written =
       terrain.written.empty() ? labelled.tin.points() : std::span<const Point2>(terrain.written);
@@ -245,33 +272,34 @@ std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<
 
 Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t> pits_before,
                    PitSummary after, const Progress& progress) {
+  std::vector<std::uint16_t> orders =
+      labelled.higher_order ? std::move(labelled.orders) : orders_of(labelled.tin, labelled.new_diagonals);
   Outcome outcome{.built = {.tin = std::move(labelled.tin),
                             .written = std::move(terrain.written),
                             .vertex_source = std::move(terrain.vertex_source),
                             .is_pit = std::move(after.is_pit)},
                   .pits_before = std::move(pits_before),
                   .new_diagonals = std::move(labelled.new_diagonals)};
-  const bool higher_order = labelled.higher_order.has_value();
-  outcome.built.orders = std::move(labelled.orders);
-  labelled.delaunay = {};
-  labelled.quadrilaterals = {};
-  if (const std::span<const VertexId> number = terrain.number; !number.empty()) {
-    if (higher_order) {
-      outcome.built.orders = renumbered_orders(outcome.built.tin, outcome.built.orders, terrain.number);
-    }
-    outcome.built.tin = outcome.built.tin.renumbered(number, progress);
-    outcome.built.written = renumbered<Point2>(outcome.built.written, number);
-    outcome.built.vertex_source = renumbered<std::uint8_t>(outcome.built.vertex_source, number);
-    if (!outcome.pits_before.empty()) {
-      outcome.pits_before = renumbered<std::uint8_t>(outcome.pits_before, number);
-    }
-    outcome.built.is_pit = renumbered<std::uint8_t>(outcome.built.is_pit, number);
-    for (auto& [a, b] : outcome.new_diagonals) {
-      std::tie(a, b) = std::minmax(number[a.index()], number[b.index()]);
-    }
-    std::sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
+  BuiltTin& built = outcome.built;
+  labelled = {};
+  const std::span<const VertexId> number = terrain.number;
+  if (number.empty()) {
+    built.orders = std::move(orders);
+    return outcome;
   }
-  if (!higher_order) outcome.built.orders = orders_of(outcome.built.tin, outcome.new_diagonals);
+  RenumberedTin renumbered_tin = renumber(std::move(built.tin), number, progress);
+  built.tin = std::move(renumbered_tin.tin);
+  built.orders.reserve(orders.size());
+  for (const TriangleId source : renumbered_tin.source) built.orders.push_back(orders[source.index()]);
+  built.written = renumbered<Point2>(built.written, number);
+  built.vertex_source = renumbered<std::uint8_t>(built.vertex_source, number);
+  if (!outcome.pits_before.empty())
+    outcome.pits_before = renumbered<std::uint8_t>(outcome.pits_before, number);
+  built.is_pit = renumbered<std::uint8_t>(built.is_pit, number);
+  for (auto& [a, b] : outcome.new_diagonals) {
+    std::tie(a, b) = std::minmax(number[a.index()], number[b.index()]);
+  }
+  std::sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
   return outcome;
 }
 
@@ -341,25 +369,23 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
   Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
 
   progress.start_phase("check");
-  refuse_violations(labelled.tin, terrain, progress);
+  if (!run.outputs.problem.empty()) write_problem(labelled, run, progress);
+  std::vector<std::uint8_t> pits_before = describe_delaunay(labelled, terrain, run, report);
+  progress.advance(0.2);
+  flip_chosen(labelled, terrain, run, report);
   progress.advance(0.4);
-  const PitSummary pits_before = find_pits(labelled.delaunay);
-  PitSummary pits_after = find_pits(labelled.tin);
-  check_pit_count(labelled.result, pits_after);
+  refuse_violations(labelled.tin, terrain, progress);
   progress.advance(0.6);
-  describe_result(labelled, terrain, run, report);
-  report.pits_delaunay = describe_pits(pits_before);
-  report.pits_result = describe_pits(pits_after);
-  describe_water(labelled, terrain, run, report);
+  PitSummary pits = find_pits(labelled.tin);
+  check_pit_count(labelled.result, pits);
+  describe_result(labelled, terrain, run, pits, report);
+  describe_changes(labelled, terrain, run, report);
   progress.advance(1);
   report.timings_s.check = run.watch.lap();
 
   progress.start_phase("write");
-  if (!run.outputs.problem.empty()) write_problem(labelled, run, progress);
-  std::vector<std::uint8_t> drawn_before;
-  if (!run.outputs.picture.empty()) drawn_before = mark_pits(labelled.delaunay, pits_before.is_pit);
-  Outcome outcome = outcome_of(std::move(labelled), std::move(terrain), std::move(drawn_before),
-                               std::move(pits_after), progress);
+  Outcome outcome =
+      outcome_of(std::move(labelled), std::move(terrain), std::move(pits_before), std::move(pits), progress);
   outcome.built.crs = run.crs;
   outcome.built.report = std::move(built.report);
   if (!run.output.changes_path.empty()) write_changes(outcome.built.report, run, progress);

@@ -3,6 +3,7 @@
 /// From a scene of the oracle to the TIN that the library works on.
 
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/ground_mode.hpp>
 #include <thalweg/mesh/tin.hpp>
 

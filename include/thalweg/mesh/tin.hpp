@@ -23,6 +23,14 @@ struct ConstraintEdge {
   EdgeKind kind = EdgeKind::Breakline;
 };
 
+/// Triangles that know their neighbours, in any order, each with any corner first.
+struct LinkedTriangles {
+  std::vector<Triangle> corners;  ///< counter-clockwise
+  std::vector<HalfedgeId> twins;  ///< for each halfedge the one on the other side; invalid on the rim
+  std::vector<EdgeKind> kinds;    ///< for each halfedge; empty: no constraint edge
+  std::vector<VertexId> number;   ///< for each vertex its id in the TIN; empty: the same
+};
+
 /// A TIN as plain arrays that others own, sound or not; what is not at hand stays empty.
 struct TinArrays {
   std::span<const Point2> points;
@@ -52,6 +60,12 @@ class Tin {
   /// bounded vertex degree.
   Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
       std::span<const ConstraintEdge> constraints);
+  /// The same from triangles whose neighbours are known: nothing is searched. Points and heights are those of
+  /// the ids in the TIN. Pre: twins belong together, numbers are a permutation. Throws: Error{Cancelled};
+  /// Error{InvalidTin} if a constraint edge is no edge of any triangle. Complexity: linear for bounded
+  /// degree.
+  Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangles linked,
+      std::span<const ConstraintEdge> constraints, const Progress& progress);
 
   [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
   [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
@@ -105,19 +119,14 @@ class Tin {
   /// The same TIN with other heights. Throws: Error{InvalidTin} unless there is one a vertex. Complexity: a
   /// copy.
   [[nodiscard]] Tin with_heights(std::vector<double> heights) const;
-  /// The same TIN where vertex v has the id number[v]. Throws: Error{InvalidTin} if
-  /// the numbers are no permutation; Error{Cancelled}. Complexity: linear.
-  [[nodiscard]] Tin renumbered(std::span<const VertexId> number, const Progress& progress) const;
 
  private:
-  void sort_triangles();
-  void list_fans();
+  friend Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
+  friend struct RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress& progress);
+  /// As the constructor from linked triangles; returns for each triangle what its first halfedge was.
+  std::vector<HalfedgeId> take(LinkedTriangles linked, const Progress& progress);
+  void list_fans(const Progress& progress);
   void link_halfedges();
-  void sort_large_fan(std::span<HalfedgeId> fan) const;
-  std::vector<HalfedgeId> take_triangles(const Tin& from, std::span<const VertexId> number,
-                                         const Progress& progress);
-  void take_halfedges(const Tin& from, std::span<const VertexId> number, std::span<const HalfedgeId> moved,
-                      const Progress& progress);
   void mark_constraints(std::span<const ConstraintEdge> constraints);
 
   std::vector<Point2> points_;
@@ -129,16 +138,5 @@ class Tin {
   std::vector<HalfedgeId> outgoing_;
   std::size_t edge_count_ = 0;
 };
-
-/// The TIN in which each given interior, unconstrained edge is replaced by the other diagonal of its
-/// quadrilateral. Pre: no two of the edges bound the same triangle; each quadrilateral is strictly convex.
-/// Throws: Error{InvalidTin} if a given edge is on the rim or constrained. Complexity: as building a Tin.
-Tin flip_edges(const Tin& tin, std::span<const HalfedgeId> edges);
-
-/// The TIN of the triangles for which `keep` is true; all vertices stay, with their ids. Constraint edges
-/// that lose their last triangle are dropped. Pre: keep.size() == tin.triangle_count().
-Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep);
-/// The same; a TIN that keeps all is passed on.
-Tin keep_triangles(Tin&& tin, const std::vector<bool>& keep);
 
 }  // namespace thalweg

@@ -3,6 +3,7 @@
 #include "scenes.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/order/order_tin.hpp>
 #include <thalweg/order/order_triangles.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
@@ -128,7 +129,7 @@ Tin along_curve(const Tin& tin) {
   const std::vector<std::uint32_t> order = hilbert_order(tin.points(), Progress());
   std::vector<VertexId> number(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = VertexId{i};
-  return tin.renumbered(number, Progress());
+  return renumber(tin, number, Progress()).tin;
 }
 
 // The orders of all triangles of a first-order triangulation, every second quadrilateral flipped, and the

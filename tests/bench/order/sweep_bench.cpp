@@ -2,6 +2,7 @@
 #include "order/sweep_count.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/order/constrained_order.hpp>
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,7 @@
 // Laws of Tin, flips, cuts and outlines on random lattices.
 #include "support/meshes.hpp"
 
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/mesh/validate.hpp>
 

@@ -1,5 +1,6 @@
 // The fixed-edge subdivision and the triangulations of its faces, against all triangulations of the oracle.
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/order/fixed_faces.hpp>
 #include <thalweg/order/useful_triangles.hpp>
 

@@ -1,6 +1,7 @@
 // The orders of all triangles of TINs, Delaunay and not, against the oracle.
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/order/constrained_order.hpp>
 #include <thalweg/order/order_tin.hpp>
 #include <thalweg/order/quadrilaterals.hpp>

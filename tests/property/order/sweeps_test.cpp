@@ -2,6 +2,7 @@
 #include "order/occupancy.hpp"
 #include "order/sweep_count.hpp"
 
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/order/constrained_order.hpp>
 
 #include <gtest/gtest.h>

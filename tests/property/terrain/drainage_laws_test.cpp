@@ -2,6 +2,7 @@
 #include "support/terrains.hpp"
 
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/terrain/catchments.hpp>
 #include <thalweg/terrain/network.hpp>
 #include <thalweg/terrain/pit_table.hpp>
@@ -207,7 +208,7 @@ TEST(DrainageLaws, NumbersOfVerticesDoNotMatter) {
   for (std::size_t i = 0; i < kCount; ++i) number[order[i]] = VertexId{i};
   Progress progress;
   const Tin scattered = triangulate(points, heights, {}, progress);
-  const Tin along = scattered.renumbered(number, progress);
+  const Tin along = renumber(scattered, number, progress).tin;
   const SurfaceFlow flow(scattered, {}, progress), other(along, {}, progress);
   ASSERT_EQ(flow.sinks().size(), other.sinks().size());
   std::map<VertexId, std::uint32_t> sink_at;

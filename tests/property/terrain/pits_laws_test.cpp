@@ -1,6 +1,7 @@
 // find_pits against a count straight from the definition, on random TINs full of plateaus.
 #include "support/meshes.hpp"
 
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/terrain/pits.hpp>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // What build_ground promises: ids, duplicates, lines with and without heights, boundaries, errors.
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/ground.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -307,7 +308,7 @@ TEST(Ground, NumberingAlongACurveChangesIdsOnly) {
     const Ground curved = build(survey, {.numbering = Numbering::AlongCurve});
     EXPECT_TRUE(plain.number.empty());
     ASSERT_EQ(curved.number.size(), plain.tin.vertex_count());
-    const Tin renumbered = curved.tin.renumbered(curved.number, Progress());
+    const Tin renumbered = renumber(curved.tin, curved.number, Progress()).tin;
     EXPECT_TRUE(std::ranges::equal(renumbered.points(), plain.tin.points()));
     EXPECT_TRUE(std::ranges::equal(renumbered.heights(), plain.tin.heights()));
     EXPECT_TRUE(std::ranges::equal(renumbered.triangles(), plain.tin.triangles()));

@@ -3,6 +3,7 @@
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/delaunay/trim.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/validate.hpp>
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include <thalweg/delaunay/surface.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 
 #include <gtest/gtest.h>
 #include <support/random.hpp>

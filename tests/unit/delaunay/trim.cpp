@@ -2,6 +2,7 @@
 #include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/delaunay/trim.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 
 #include <gtest/gtest.h>
 #include <support/random.hpp>

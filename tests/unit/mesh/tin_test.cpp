@@ -2,6 +2,7 @@
 #include "support/meshes.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/mesh/validate.hpp>
@@ -202,7 +203,7 @@ TEST(Tin, RenumberedIsTheTinBuiltUnderThoseIds) {
   const Tin tin = make_tin(points, triangles, {edge(0, 7, EdgeKind::Valley), edge(1, 2, EdgeKind::Ridge)});
   std::vector<VertexId> number;
   for (std::size_t v = 0; v < points.size(); ++v) number.emplace_back((v * 23 + 5) % points.size());
-  const Tin moved = tin.renumbered(number, Progress());
+  const Tin moved = renumber(tin, number, Progress()).tin;
 
   std::vector<Point2> new_points(points.size());
   std::vector<double> new_heights(points.size());
@@ -229,9 +230,9 @@ TEST(Tin, RenumberedIsTheTinBuiltUnderThoseIds) {
 }
 
 TEST(Tin, RenumberedRefusesWhatIsNoPermutation) {
-  expect_invalid([] { (void)square().renumbered(ids({0, 1, 2, 2}), Progress()); }, "permutation");
-  expect_invalid([] { (void)square().renumbered(ids({0, 1, 2, 4}), Progress()); }, "permutation");
-  expect_invalid([] { (void)square().renumbered(ids({0, 1, 2}), Progress()); }, "permutation");
+  expect_invalid([] { (void)renumber(square(), ids({0, 1, 2, 2}), Progress()); }, "permutation");
+  expect_invalid([] { (void)renumber(square(), ids({0, 1, 2, 4}), Progress()); }, "permutation");
+  expect_invalid([] { (void)renumber(square(), ids({0, 1, 2}), Progress()); }, "permutation");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Pits on TINs that can be drawn.
 #include "support/meshes.hpp"
 
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/terrain/pits.hpp>
 
 #include <gmock/gmock.h>

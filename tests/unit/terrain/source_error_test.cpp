@@ -3,6 +3,7 @@
 #include "support/plain_surface.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/terrain/source_error.hpp>
 
 #include <gtest/gtest.h>
