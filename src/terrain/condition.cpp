@@ -249,8 +249,8 @@ ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outl
   for (;;) {
     ConditionResult result = condition_along(tin, outlets, options, arcs, progress);
     if (options.max_change) return result;
-    // A line whose ends were level may have a direction now. All arcs hold, so a whole line more makes no
-    // cycle.
+    // A line of a ring whose ends were level may have a direction now. All arcs hold, so a whole line more,
+    // which runs down, makes no cycle.
     const std::vector<DownArc> more = list_arcs(
         tin.with_heights(result.heights),
         [&heights = result.heights](const DownArc& arc) { return heights[arc.above] < heights[arc.below]; });

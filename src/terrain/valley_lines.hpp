@@ -11,11 +11,18 @@ namespace thalweg {
 
 struct ValleyLines {
   std::vector<std::uint8_t> on_valley;       ///< by vertex
-  std::vector<std::vector<VertexId>> lines;  ///< from the higher end to the lower one
+  std::vector<std::vector<VertexId>> lines;  ///< downstream
 };
 
-/// From one end or meeting of drawn valley edges to the next; closed lines and those with level ends are left
-/// out. No vertex comes after itself along lines. Complexity: linear.
+/// From one end or meeting of drawn valley edges to the next. A TIN does not keep in which direction a line
+/// was drawn, so it is found: all water of a net of lines that hang together leaves at one vertex, that for
+/// which the heights along lines have to change least (in sum, each line by itself) so that none rises
+/// towards it; of equal ones the lowest, then the first by (x, y). Vertices inside of a line are looked at
+/// where that saves more than half of what the line takes; there two lines were drawn towards each other.
+/// Lines between whose ends there is another way run from the higher end to the lower one. Left out: closed
+/// lines, and such lines with level ends. No vertex comes after itself along lines. Other heights, on which
+/// none of the lines rises, give no line that rises, but where ends were level. Complexity: n log n in vertices
+/// of lines.
 ValleyLines trace_valleys(const Tin& tin);
 
 }  // namespace thalweg

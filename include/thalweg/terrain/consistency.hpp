@@ -17,14 +17,16 @@ struct Inconsistency {
     RidgeCrossed  ///< water runs over it from one side to the other
   };
   Kind kind = Kind::ValleyRises;
-  VertexId from;  ///< downstream: from the line's higher end to its lower one
+  VertexId from;  ///< downstream
   VertexId to;
   double rise_m = 0;
 };
 
 /// Lengths in metres in the plane. Downstream: a TIN does not keep the direction in which a line was drawn,
-/// so a line of valley edges, from one end or meeting of lines to the next, is taken to run from its higher
-/// end to its lower one; closed ones and those with level ends have no direction.
+/// so all water of a net of valley edges that hang together is taken to leave at one vertex, that for which
+/// heights along lines have to change least so that none rises towards it. Lines between whose ends there is
+/// another way run from the higher end to the lower one; closed ones, and such with level ends, have no
+/// direction.
 struct Consistency {
   std::size_t valley_edges = 0;
   double valley_length_m = 0;

@@ -14,7 +14,9 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -76,33 +78,163 @@ double sum_of_changes(const ConditionResult& result) {
 
 struct PlainValleys {
   std::vector<std::pair<std::size_t, std::size_t>> arcs;
-  bool level = false;  // a line has level ends, so no direction
+  bool level = false;  // a line of a ring has level ends, so no direction
 };
 
-/// Arcs of drawn valleys downstream, traced anew from pairs of vertices.
-PlainValleys plain_valleys(const Tin& tin) {
-  std::map<std::size_t, std::set<std::size_t>> next;
-  for (const ConstraintEdge& edge : tin.constraint_edges()) {
-    next[edge.a.index()].insert(edge.b.index());
-    next[edge.b.index()].insert(edge.a.index());
+using PlainLine = std::vector<std::size_t>;
+
+/// The least sum of changes with which a line does not rise and stays at `level` or above: tried out on all
+/// its heights.
+double plain_fall(const Tin& tin, const PlainLine& line,
+                  double level = std::numeric_limits<double>::lowest()) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  std::map<double, double>
+      least;  // of the vertices from the last one back, by the height of the first of them
+  if (level > std::numeric_limits<double>::lowest()) least[level] = 0;
+  for (const std::size_t v : line) {
+    const double z = tin.height(VertexId{v});
+    least[z] = z < level ? kNever : 0;
   }
-  PlainValleys valleys;
-  for (const auto& [end, ways] : next) {
-    if (ways.size() == 2) continue;
-    for (std::size_t at : ways) {
-      std::vector<std::pair<std::size_t, std::size_t>> line = {{end, at}};
-      std::size_t before = end;
-      while (next[at].size() == 2) {
-        const std::size_t on = *next[at].begin() == before ? *next[at].rbegin() : *next[at].begin();
-        line.emplace_back(at, on);
-        before = std::exchange(at, on);
-      }
-      const double from = tin.height(VertexId{end}), to = tin.height(VertexId{at});
-      valleys.level |= from == to && end != at;
-      if (from > to) valleys.arcs.insert(valleys.arcs.end(), line.begin(), line.end());
+  for (auto v = line.rbegin(); v != line.rend(); ++v) {
+    double below = kNever;
+    for (auto& [here, sum] : least) {
+      below = std::min(below, sum);
+      sum = below + std::abs(here - tin.height(VertexId{*v}));
     }
   }
-  return valleys;
+  double best = line.empty() ? 0 : kNever;
+  for (const auto& [here, sum] : least) best = std::min(best, sum);
+  return best;
+}
+
+/// Drawn valleys traced anew from pairs of vertices; every way out of a net is tried.
+class PlainNets {
+ public:
+  explicit PlainNets(const Tin& tin) : tin_(tin) {
+    std::map<std::size_t, std::set<std::size_t>> next;
+    for (const ConstraintEdge& edge : tin.constraint_edges()) {
+      next[edge.a.index()].insert(edge.b.index());
+      next[edge.b.index()].insert(edge.a.index());
+    }
+    for (const auto& [end, ways] : next) {
+      if (ways.size() == 2) continue;
+      for (const std::size_t at : ways) {
+        PlainLine line = {end, at};
+        while (next[line.back()].size() == 2) {
+          const std::set<std::size_t>& on = next[line.back()];
+          line.push_back(*on.begin() == line[line.size() - 2] ? *on.rbegin() : *on.begin());
+        }
+        if (line.front() < line.back()) lines_.push_back(line);
+      }
+    }
+    for (const PlainLine& line : lines_) at_back_[line] = reach(line.back(), &line);
+  }
+
+  PlainValleys run() {
+    PlainValleys valleys;
+    std::set<std::size_t> seen;
+    for (const PlainLine& line : lines_) {
+      if (seen.contains(line.front())) continue;
+      const std::set<std::size_t> net = reach(line.front(), nullptr);
+      seen.insert(net.begin(), net.end());
+      direct(net, valleys);
+    }
+    return valleys;
+  }
+
+ private:
+  /// The ends of lines that hang together with v, without one of the lines.
+  [[nodiscard]] std::set<std::size_t> reach(std::size_t v, const PlainLine* without) const {
+    std::set<std::size_t> found = {v};
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const PlainLine& line : lines_) {
+        if (&line == without || found.contains(line.front()) == found.contains(line.back())) continue;
+        found.insert({line.front(), line.back()});
+        grows = true;
+      }
+    }
+    return found;
+  }
+
+  /// The line so that it ends nearer to the way out; empty: it is in a ring.
+  [[nodiscard]] PlainLine towards(std::size_t out, const PlainLine& line) const {
+    const std::set<std::size_t>& at_back = at_back_.at(line);
+    if (at_back.contains(line.front())) return {};
+    return at_back.contains(out) ? line : PlainLine(line.rbegin(), line.rend());
+  }
+
+  /// What a line takes to fall from both ends to a vertex.
+  [[nodiscard]] double fall_into(const PlainLine& line, std::size_t middle) const {
+    const PlainLine left(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(middle));
+    const PlainLine right(line.rbegin(), line.rend() - static_cast<std::ptrdiff_t>(middle) - 1);
+    std::set<double> levels;
+    for (const std::size_t v : line) levels.insert(tin_.height(VertexId{v}));
+    double best = std::numeric_limits<double>::infinity();
+    for (const double level : levels) {
+      double sum = std::abs(level - tin_.height(VertexId{line[middle]}));
+      for (const PlainLine& part : {left, right}) sum += plain_fall(tin_, part, level);
+      best = std::min(best, sum);
+    }
+    return best;
+  }
+
+  void direct(const std::set<std::size_t>& net, PlainValleys& valleys) const {
+    using Rank = std::tuple<double, double, double, double>;
+    std::optional<Rank> best;
+    std::vector<PlainLine> chosen;
+    const auto consider = [&](std::size_t out, std::size_t outlet, const PlainLine* split, double more,
+                              std::vector<PlainLine> parts) {
+      double total = more;
+      for (const PlainLine& line : lines_) {
+        if (!net.contains(line.front()) || &line == split) continue;
+        // Lines on either side of one that is split run to its end there.
+        const bool beyond = split != nullptr && at_back_.at(*split).contains(line.front());
+        const PlainLine run = towards(beyond ? split->back() : out, line);
+        total += plain_fall(tin_, run);
+        if (!run.empty()) parts.push_back(run);
+      }
+      const Point2 p = tin_.point(VertexId{outlet});
+      const Rank rank{std::round(total * 1e6), tin_.height(VertexId{outlet}), p.x, p.y};
+      if (best && *best <= rank) return;
+      best = rank;
+      chosen = std::move(parts);
+    };
+    for (const std::size_t out : net) consider(out, out, nullptr, 0, {});
+    for (const PlainLine& line : lines_) {
+      if (!net.contains(line.front()) || towards(line.front(), line).empty()) continue;
+      const double whole =
+          std::min(plain_fall(tin_, line), plain_fall(tin_, PlainLine(line.rbegin(), line.rend())));
+      for (std::size_t m = 1; m + 1 < line.size(); ++m) {
+        const double sum = fall_into(line, m);
+        if (!(sum < whole / 2 - 1e-9)) continue;
+        const auto at = line.begin() + static_cast<std::ptrdiff_t>(m);
+        consider(line.front(), line[m], &line, sum,
+                 {PlainLine(line.begin(), at + 1), PlainLine(line.rbegin(), std::make_reverse_iterator(at))});
+      }
+    }
+    for (const PlainLine& run : chosen) add(run, valleys);
+    for (const PlainLine& line : lines_) {
+      if (!net.contains(line.front()) || !towards(line.front(), line).empty()) continue;
+      const double fall = tin_.height(VertexId{line.front()}) - tin_.height(VertexId{line.back()});
+      valleys.level |= fall == 0;
+      if (fall > 0) add(line, valleys);
+      if (fall < 0) add(PlainLine(line.rbegin(), line.rend()), valleys);
+    }
+  }
+
+  static void add(const PlainLine& run, PlainValleys& valleys) {
+    for (std::size_t i = 1; i < run.size(); ++i) valleys.arcs.emplace_back(run[i - 1], run[i]);
+  }
+
+  const Tin& tin_;
+  std::vector<PlainLine> lines_;
+  std::map<PlainLine, std::set<std::size_t>>
+      at_back_;  // ends that hang together with its last one without it
+};
+
+PlainValleys plain_valleys(const Tin& tin) {
+  return PlainNets(tin).run();
 }
 
 /// The least sum of changes over all isotonic values among the heights themselves.

@@ -68,6 +68,36 @@ TEST(Consistency, AHumpRisesDownstream) {
   EXPECT_EQ(found.rise_max_m, 2);
 }
 
+TEST(Consistency, TwoValleysDrawnTowardsEachOtherMeetWhereTheyAreLowest) {
+  const auto bowl = [](int x, int y) { return (x > 0 ? 2 * x : -x) + 10 * std::abs(y); };
+  EXPECT_EQ(check_consistency(lattice(bowl, middle(EdgeKind::Valley)), {}).rising_edges, 0U);
+}
+
+TEST(Consistency, ALowestVertexNextToTheEndIsNoMeeting) {
+  // Falling to x = -2 takes changes of 2, to the vertex before it 1: no less than half.
+  const std::vector<double> heights = {2, 1, 4, 3, 6};
+  const Tin tin =
+      lattice([&](int x, int y) { return heights[static_cast<std::size_t>(x + 2)] + 10 * std::abs(y); },
+              middle(EdgeKind::Valley));
+  const Consistency found = check_consistency(tin, {});
+  ASSERT_EQ(found.rising_edges, 2U);
+  EXPECT_EQ(found.places[0].to, at(0, 0));
+  EXPECT_EQ(found.places[1].to, at(-2, 0));
+}
+
+TEST(Consistency, AllLinesOfANetRunToOneEnd) {
+  // A stem along y = 0 that falls to x = -2 but for its middle reach, and two tributaries.
+  std::vector<ConstraintEdge> lines = middle(EdgeKind::Valley);
+  for (const int x : {-1, 1}) lines.push_back({at(x, 0), at(x, 1), EdgeKind::Valley});
+  const std::vector<double> stem = {0, 4, 3, 3, 9};
+  const Tin tin =
+      lattice([&](int x, int y) { return stem[static_cast<std::size_t>(x + 2)] + 10 * std::abs(y); }, lines);
+  const Consistency found = check_consistency(tin, {});
+  ASSERT_EQ(found.places.size(), 1U);
+  EXPECT_EQ(found.places[0].from, at(0, 0));
+  EXPECT_EQ(found.places[0].to, at(-1, 0));
+}
+
 TEST(Consistency, ARidgeOnASlopeIsCrossedAndOneOnACrestIsNot) {
   const Tin slope = lattice([](int, int y) { return y; }, middle(EdgeKind::Ridge));
   EXPECT_EQ(check_consistency(slope, {}).crossed_ridge_edges, 4U);
