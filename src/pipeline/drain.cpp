@@ -9,6 +9,7 @@
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/drain_layers.hpp"
 #include "pipeline/flow_attributes.hpp"
+#include "pipeline/swmm.hpp"
 #include "pipeline/water_json.hpp"
 #include "terrain/triangle_grid.hpp"
 
@@ -152,11 +153,27 @@ void describe(const LoadedTin& loaded, const SurfaceFlow& flow, const PitTable& 
   }
 }
 
-void write_report(const std::string& path, const std::string& target, const DrainReport& report) {
+/// By the sink in which water ends.
+std::vector<double> sum_areas(const SurfaceFlow& flow, std::span<const std::uint32_t> end_of_sink,
+                              double square) {
+  std::vector<double> area_m2(end_of_sink.size(), 0);
+  for (std::size_t s = 0; s < area_m2.size(); ++s) area_m2[end_of_sink[s]] += flow.sinks()[s].area * square;
+  return area_m2;
+}
+
+void write_text(const std::string& path, const std::string& target, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
-  file << to_json(report);
+  file << text;
   file.close();
   if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
+}
+
+void write_model(const LoadedTin& loaded, const SwmmView& view, const DrainConfig& config,
+                 DrainReport& report, PendingOutputs& outputs, Progress& progress) {
+  const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
+  const SwmmFile model = write_swmm(loaded, view, progress);
+  report.swmm = model.report;
+  write_text(outputs.add(config.swmm_path, mode), config.swmm_path, model.text);
 }
 
 /// Refuses what would be refused after long work.
@@ -166,6 +183,10 @@ void check_outputs(const DrainConfig& config, Overwrite mode) {
   if (!config.mesh_path.empty()) {
     check_mesh_path(config.mesh_path);
     PendingOutputs().add(config.mesh_path, mode);
+  }
+  if (!config.swmm_path.empty()) {
+    check_swmm_path(config.swmm_path);
+    PendingOutputs().add(config.swmm_path, mode);
   }
   if (config.conditioned_path.empty()) return;
   check_write_options(config.conditioned_path, {});
@@ -218,12 +239,9 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   report.pass_pits_m = config.pass_pits_m;
   describe(loaded, flow, table, spilling, report);
   const double square = scale.horizontal_metres_per_unit * scale.horizontal_metres_per_unit;
-  std::vector<double> area_m2(flow.sinks().size(), 0);  // by the sink in which water ends
   std::vector<std::uint32_t> end_of_sink;
-  for (std::size_t s = 0; s < area_m2.size(); ++s) {
-    end_of_sink.push_back(spilling.end[s].value());
-    area_m2[end_of_sink.back()] += flow.sinks()[s].area * square;
-  }
+  for (const SinkId end : spilling.end) end_of_sink.push_back(end.value());
+  const std::vector<double> area_m2 = sum_areas(flow, end_of_sink, square);
   for (std::size_t i = 0; i < outlets.size(); ++i) {
     report.outlets[i].catchment_area_m2 = area_m2[flow.sink_of(outlets[i]).index()];
   }
@@ -247,8 +265,11 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   if (!config.mesh_path.empty()) {
     write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets}, config, outputs, progress);
   }
+  if (!config.swmm_path.empty()) {
+    write_model(loaded, {flow, table, spilling, network, outlets}, config, report, outputs, progress);
+  }
   if (!config.conditioned_path.empty()) write_conditioned(loaded, config, outputs, progress);
-  if (to_file) write_report(report_path, config.report_path, report);
+  if (to_file) write_text(report_path, config.report_path, to_json(report));
   progress.check();
   if (config.announce) config.announce(report);
   outputs.commit();
@@ -287,6 +308,11 @@ std::string to_json(const DrainReport& r) {
       {"consistency", consistency_json(r.consistency)},
       {"notes", r.notes}};
   if (r.conditioned) json["conditioned"] = condition_json(*r.conditioned);
+  if (r.swmm) {
+    json["swmm"] = {{"junctions", r.swmm->junctions},         {"outfalls", r.swmm->outfalls},
+                    {"storages", r.swmm->storages},           {"conduits", r.swmm->conduits},
+                    {"subcatchments", r.swmm->subcatchments}, {"area_m2", r.swmm->area_m2}};
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -335,6 +361,11 @@ std::string to_text(const DrainReport& r) {
   row("valley edges that are not drawn", fmt::format("{}", c.undrawn_valley_edges));
   row("triangles with all corners on valleys", fmt::format("{}", c.triangles_on_valleys));
   row("flat triangles, flat edges", fmt::format("{}, {}", c.flat_triangles, c.flat_edges));
+  if (r.swmm) {
+    row("SWMM: nodes, conduits",
+        fmt::format("{}, {}", r.swmm->junctions + r.swmm->outfalls + r.swmm->storages, r.swmm->conduits));
+    row("  subcatchments, m2", fmt::format("{}, {:.1f}", r.swmm->subcatchments, r.swmm->area_m2));
+  }
   for (const std::string& note : r.notes) fmt::format_to(out, "Note: {}\n", printable(note));
   return text;
 }

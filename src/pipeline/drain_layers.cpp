@@ -23,31 +23,6 @@ Point2 written(const LoadedTin& loaded, const FlowPoint& p) {
   return {a.x + p.along * (b.x - a.x), a.y + p.along * (b.y - a.y)};
 }
 
-FeatureLine line_of(const LoadedTin& loaded, std::span<const FlowPoint> points) {
-  FeatureLine line;
-  for (const FlowPoint& p : points) {
-    const Point2 xy = written(loaded, p);
-    if (!line.xy.empty() && line.xy.back() == xy) continue;
-    line.xy.push_back(xy);
-    line.z.push_back(p.z);
-  }
-  if (line.xy.size() == 1) {  // a path that ends where it starts
-    line.xy.push_back(line.xy.front());
-    line.z.push_back(line.z.front());
-  }
-  return line;
-}
-
-FeatureLine ring_of(const LoadedTin& loaded, const CatchmentRing& points) {
-  FeatureLine ring;
-  for (const FlowPoint& p : points) {
-    const Point2 xy = written(loaded, p);
-    if (ring.xy.empty() || ring.xy.back() != xy) ring.xy.push_back(xy);
-  }
-  while (ring.xy.size() > 1 && ring.xy.back() == ring.xy.front()) ring.xy.pop_back();
-  return ring;
-}
-
 std::string sink_word(Sink::Kind kind) {
   switch (kind) {
     case Sink::Kind::Pit:
@@ -72,6 +47,31 @@ double square_metres(const LoadedTin& loaded, double area) {
 }
 
 }  // namespace
+
+FeatureLine line_of(const LoadedTin& loaded, std::span<const FlowPoint> points) {
+  FeatureLine line;
+  for (const FlowPoint& p : points) {
+    const Point2 xy = written(loaded, p);
+    if (!line.xy.empty() && line.xy.back() == xy) continue;
+    line.xy.push_back(xy);
+    line.z.push_back(p.z);
+  }
+  if (line.xy.size() == 1) {  // a path that ends where it starts
+    line.xy.push_back(line.xy.front());
+    line.z.push_back(line.z.front());
+  }
+  return line;
+}
+
+FeatureLine ring_of(const LoadedTin& loaded, const CatchmentRing& points) {
+  FeatureLine ring;
+  for (const FlowPoint& p : points) {
+    const Point2 xy = written(loaded, p);
+    if (ring.xy.empty() || ring.xy.back() != xy) ring.xy.push_back(xy);
+  }
+  while (ring.xy.size() > 1 && ring.xy.back() == ring.xy.front()) ring.xy.pop_back();
+  return ring;
+}
 
 FeatureLayer pit_layer(const LoadedTin& loaded, const PitTable& table) {
   FeatureLayer layer{.name = "pits",

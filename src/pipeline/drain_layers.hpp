@@ -21,6 +21,10 @@ struct SeededPath {
   FlowPath path;
 };
 
+/// The points as written, equal neighbours once.
+FeatureLine line_of(const LoadedTin& loaded, std::span<const FlowPoint> points);
+FeatureLine ring_of(const LoadedTin& loaded, const CatchmentRing& points);
+
 FeatureLayer pit_layer(const LoadedTin& loaded, const PitTable& table);
 FeatureLayer path_layer(const LoadedTin& loaded, const SurfaceFlow& flow, std::span<const SeededPath> paths);
 FeatureLayer network_layer(const LoadedTin& loaded, const SurfaceFlow& flow, std::span<const Reach> network);

@@ -145,7 +145,11 @@ class Walk {
 
 }  // namespace
 
-SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Progress& progress) {
+SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Progress& progress)
+    : SurfaceFlow(tin, outlets, {}, progress) {}
+
+SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets,
+                         std::span<const VertexId> stations, Progress& progress) {
   constexpr std::size_t kMostVertices = std::size_t{1} << 29U;  // so that FlowNodes have 31 bits
   if (tin.vertex_count() >= kMostVertices) {
     throw Error(ErrorCode::SizeLimit,
@@ -163,6 +167,10 @@ SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Prog
   find_channels(graph, progress);
   find_pieces(graph, progress);
   find_steps(graph, progress);
+  for (const VertexId v : stations) {
+    given.push_back(graph.mesh.own(v));
+    graph.step[given.back().index()] = {};
+  }
   find_sinks(graph, given);
   measure_grounds(graph, progress);
   progress.advance(1);

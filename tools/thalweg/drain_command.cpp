@@ -54,6 +54,8 @@ void add_drain_command(CLI::App& app) {
       "--mesh", a->config.mesh_path,
       "mesh with catchments, areas upstream and valleys on its vertices and edges: .nc (UGRID) "
       "or .gpkg");
+  command->add_option("--swmm", a->config.swmm_path,
+                      "network and subcatchments as an input file of EPA SWMM 5 (.inp)");
   command->add_option("--report", a->config.report_path, "JSON report; - for stdout");
   command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
   add_common_options(*command, a->common);

@@ -31,9 +31,20 @@ struct DrainConfig {
   double pass_pits_m = 0;                ///< pits that are not deeper are full and spill
   ConditionConfig condition;
   std::string mesh_path;         ///< mesh with attributes of flow, .nc or .gpkg; empty: none
+  std::string swmm_path;         ///< the network and its grounds for EPA SWMM 5, .inp; empty: none
   std::string conditioned_path;  ///< the TIN with its new heights, in a format by extension; empty: none
   /// Told the report when all files are whole, before they get their names: what it throws leaves none.
   std::function<void(const DrainReport&)> announce;
+};
+
+/// What a file for SWMM holds.
+struct SwmmReport {
+  std::size_t junctions = 0;
+  std::size_t outfalls = 0;
+  std::size_t storages = 0;  ///< pits at which reaches end
+  std::size_t conduits = 0;
+  std::size_t subcatchments = 0;
+  double area_m2 = 0;  ///< of the subcatchments: ground that drains to the network
 };
 
 struct DrainReport {
@@ -63,6 +74,7 @@ struct DrainReport {
   std::size_t broken_cycles = 0;
   Consistency consistency;
   std::optional<ConditionReport> conditioned;
+  std::optional<SwmmReport> swmm;
   std::vector<std::string> notes;
 };
 

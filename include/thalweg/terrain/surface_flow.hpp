@@ -42,7 +42,7 @@ struct Sink {
     Pit,     ///< an interior pit
     Lake,    ///< a pit that holds an edge of kind Lake
     Outlet,  ///< where the rim is lowest
-    Given    ///< an outlet that the caller named
+    Given    ///< an outlet or a station that the caller named
   };
   Kind kind = Kind::Pit;
   VertexId vertex;             ///< of a plateau: its first vertex by (x, y)
@@ -73,6 +73,10 @@ class SurfaceFlow {
   /// Error{Cancelled}. Complexity: linear, plus one step for each crossing of an edge by a line that divides
   /// the grounds of two channels; on all threads. The answers do not depend on their number.
   SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, Progress& progress);
+  /// The same water, which ends at `stations` too: they draw none to them on plateaus. Those in pits, and
+  /// outlets, stay what they are.
+  SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets, std::span<const VertexId> stations,
+              Progress& progress);
   ~SurfaceFlow();
   SurfaceFlow(SurfaceFlow&&) noexcept;
   SurfaceFlow& operator=(SurfaceFlow&&) = delete;

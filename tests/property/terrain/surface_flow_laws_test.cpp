@@ -84,6 +84,44 @@ TEST(SurfaceFlowLaws, CatchmentsTileAndEveryVertexHasOneSink) {
   }
 }
 
+TEST(SurfaceFlowLaws, StationsStopWaterAndLeadItNowhereElse) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  std::size_t stopped = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Tin tin = scene(i, random);
+    const std::vector<VertexId> outlets = random_outlets(tin, i, random);
+    std::vector<VertexId> stations;
+    for (int k = 0; k < 6; ++k) stations.emplace_back(random.integer<std::size_t>(0, tin.vertex_count() - 1));
+    Progress progress;
+    const SurfaceFlow flow(tin, outlets, progress), stops(tin, outlets, stations, progress);
+    const std::set<VertexId> stations_on(stations.begin(), stations.end());
+    double area = 0;
+    for (const Sink& sink : stops.sinks()) area += sink.area;
+    double whole = 0;
+    for (const Sink& sink : flow.sinks()) whole += sink.area;
+    EXPECT_NEAR(area, whole, 1e-9 * whole);
+    for (std::size_t v = 0; v < tin.vertex_count(); ++v) {
+      if (!flow.sink_of(VertexId{v}).valid()) continue;
+      const FlowPath path = flow.path_from(VertexId{v});
+      const auto first = std::find_if(path.points.begin(), path.points.end(),
+                                      [&](const FlowPoint& p) { return stations_on.contains(p.vertex); });
+      const Sink &end = flow.sinks()[path.sink.index()],
+                 &stop = stops.sinks()[stops.sink_of(VertexId{v}).index()];
+      const bool in_pit = stop.kind == Sink::Kind::Pit || stop.kind == Sink::Kind::Lake;
+      if (first == path.points.end() || in_pit) {
+        EXPECT_EQ(stop.vertex, end.vertex) << i;
+        EXPECT_EQ(stop.kind, end.kind) << i;
+        continue;
+      }
+      stopped += stop.kind == Sink::Kind::Given ? 1 : 0;
+      // On a plateau at the rim water leaves before it comes to a station there.
+      EXPECT_TRUE(stop.vertex == first->vertex || stop.vertex == end.vertex) << i;
+    }
+  }
+  EXPECT_GT(stopped, 500U);
+}
+
 TEST(SurfaceFlowLaws, PitsAreTheSinksInside) {
   test::Random random;
   SCOPED_TRACE(random.trace());
