@@ -12,6 +12,7 @@
 // 6. Optimise and write (surface.cpp).
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/memory_estimate.hpp"
+#include "pipeline/outlets.hpp"
 #include "pipeline/plane_survey.hpp"
 #include "pipeline/reduce_terrain.hpp"
 #include "pipeline/surface.hpp"
@@ -169,6 +170,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   report.notes = read.notes;
   report.input.vertices_inserted_on_lines = survey.vertices_inserted_on_lines;
   note_assumptions(read.crs, report);
+  std::vector<Point2> outlets = read_places(config.condition.outlets, read.crs, progress);
   progress.advance(1);
   report.timings_s.read = watch.lap();
 
@@ -208,8 +210,10 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
     report.timings_s.simplify = watch.lap();
   }
 
-  finish_run(std::move(terrain),
-             {plane, read.crs, config.labelling, config.condition, output, outputs, watch}, built, progress);
+  finish_run(
+      std::move(terrain),
+      {plane, read.crs, config.labelling, config.condition, output, outputs, watch, std::move(outlets)},
+      built, progress);
   return built;
 }
 

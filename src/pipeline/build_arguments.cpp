@@ -55,7 +55,7 @@ void add_build_options(CLI::App& command, BuildArguments& arguments) {
   add_ground_options(command, arguments);
   add_simplify_options(command, arguments);
   add_labelling_options(command, arguments.labelling);
-  add_condition_options(command, arguments.condition, kWhenConditioned);
+  add_condition_options(command, arguments.condition);
 }
 
 BuildConfig config_of(const CLI::App& command, BuildArguments arguments) {
@@ -66,7 +66,7 @@ BuildConfig config_of(const CLI::App& command, BuildArguments arguments) {
   if (command.count("--memory-limit") > 0) config.memory_limit_bytes = arguments.memory_limit_bytes;
   if (command.count("--max-points") > 0) config.max_points = arguments.max_points;
   config.labelling = parse_labelling(arguments.labelling);
-  config.condition = parse_condition(command, arguments.condition, {});
+  config.condition = parse_condition(command, arguments.condition, {"--outlets"});
   return config;
 }
 

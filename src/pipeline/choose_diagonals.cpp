@@ -13,6 +13,7 @@
 
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/higher_order.hpp"
+#include "pipeline/outlets.hpp"
 #include "pipeline/proof_file.hpp"
 #include "pipeline/reference.hpp"
 #include "pipeline/std_order_error.hpp"
@@ -107,8 +108,15 @@ void choose_higher_order(Labelled& labelled, const SurfaceFaces& faces, const La
 
 /// Gives the Delaunay TIN the heights that conditioning of a triangulation of its vertices leaves.
 void condition(Labelled& labelled, const Tin& triangulation, const RunContext& run, Progress& progress) {
+  std::vector<VertexId> outlets;
+  if (!run.outlets.empty()) {
+    const TriangleGrid grid(triangulation);
+    for (const Point2 place : run.outlets) {
+      outlets.push_back(outlet_at(place, triangulation, grid, run.plane));
+    }
+  }
   ConditionedTin conditioned =
-      condition_tin(triangulation, run.plane.vertical_metres_per_unit(), {}, run.condition, progress);
+      condition_tin(triangulation, run.plane.vertical_metres_per_unit(), outlets, run.condition, progress);
   const std::span<const double> heights = conditioned.tin.heights();
   labelled.delaunay = labelled.delaunay.with_heights({heights.begin(), heights.end()});
   labelled.changes = std::move(conditioned.changes);

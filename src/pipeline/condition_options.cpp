@@ -24,6 +24,18 @@ void add_condition_options(CLI::App& command, ConditionArguments& arguments, con
       ->default_str("none");
 }
 
+void add_condition_options(CLI::App& command, ConditionArguments& arguments) {
+  add_condition_options(
+      command, arguments,
+      "Valleys before diagonals are chosen; pits after that, and then diagonals are chosen again");
+  command
+      .add_option("--outlets", arguments.outlets,
+                  "points where water leaves, which --condition leaves open; repeatable")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 ConditionConfig parse_condition(const CLI::App& command, const ConditionArguments& arguments,
                                 const std::vector<std::string>& companions) {
   ConditionConfig config;
@@ -39,6 +51,7 @@ ConditionConfig parse_condition(const CLI::App& command, const ConditionArgument
   }
   config.norm = arguments.norm == "sum" ? ChangeNorm::Sum : ChangeNorm::Squares;
   if (command.count("--condition-max") > 0) config.max_m = arguments.max_m;
+  for (const std::string& file : arguments.outlets) config.outlets.push_back(parse_source(file));
   return config;
 }
 

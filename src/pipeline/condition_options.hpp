@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 namespace thalweg::cli {
 
@@ -14,13 +15,13 @@ namespace thalweg::cli {
 struct ConditionArguments {
   std::string steps, norm = "sum";
   double max_m = 0;
+  std::vector<std::string> outlets;
 };
 
-/// When heights change in a run that chooses diagonals.
-constexpr const char* kWhenConditioned =
-    "Valleys before diagonals are chosen; pits after that, and then diagonals are chosen again";
-
-/// Adds --condition, --condition-norm and --condition-max. `when`: what the help says of when heights change.
+/// The same with --outlets, for a run that chooses diagonals.
+void add_condition_options(CLI::App& command, ConditionArguments& arguments);
+/// Adds --condition, --condition-norm and --condition-max. `when`: what the help says of when heights
+/// change.
 void add_condition_options(CLI::App& command, ConditionArguments& arguments, const std::string& when);
 /// Throws: Error{Usage}, also for an option that goes with --condition where that is not given; `companions`
 /// are such options of the command.

@@ -9,9 +9,9 @@
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/drain_layers.hpp"
 #include "pipeline/flow_attributes.hpp"
+#include "pipeline/outlets.hpp"
 #include "pipeline/swmm.hpp"
 #include "pipeline/water_json.hpp"
-#include "terrain/triangle_grid.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/write_tin.hpp>
@@ -34,23 +34,6 @@ namespace {
 constexpr double kNetworkShare = 0.001;  // of the TIN, where no area is asked for
 constexpr double kMostSeeds = 1e7;
 
-/// In the TIN's CRS, which is also that of a source that declares none.
-std::vector<Point2> read_points(const std::vector<SourceSpec>& sources, const CrsInfo& crs,
-                                Progress& progress) {
-  std::vector<Point2> points;
-  for (const SourceSpec& source : sources) {
-    ReadOptions options;
-    options.heights = HeightRule::Optional;
-    ReadResult read = read_survey({&source, 1}, {}, options, progress);
-    if (crs.known && read.crs.known) {
-      options.target_crs = crs.wkt;
-      read = read_survey({&source, 1}, {}, options, progress);
-    }
-    points.insert(points.end(), read.survey.points.xy.begin(), read.survey.points.xy.end());
-  }
-  return points;
-}
-
 double distance(Point2 a, Point2 b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
@@ -58,19 +41,9 @@ double distance(Point2 a, Point2 b) {
 std::vector<VertexId> place_outlets(const LoadedTin& loaded, const TriangleGrid& grid,
                                     const DrainConfig& config, DrainReport& report, Progress& progress) {
   std::vector<VertexId> outlets;
-  for (const Point2 given : read_points(config.outlets, loaded.crs, progress)) {
+  for (const Point2 given : read_places(config.outlets, loaded.crs, progress)) {
+    const VertexId nearest = outlet_at(given, loaded.tin, grid, loaded.plane);
     const Point2 p = loaded.plane.to_plane(given);
-    const auto t = grid.find(p);
-    if (!t) {
-      throw Error(ErrorCode::OutsideHull,
-                  fmt::format("the outlet at {} {} is outside of the TIN; move it inside, or "
-                              "take it out of --outlets",
-                              given.x, given.y));
-    }
-    const Triangle& corner = loaded.tin.triangle(*t);
-    const VertexId nearest = *std::min_element(corner.begin(), corner.end(), [&](VertexId a, VertexId b) {
-      return distance(loaded.tin.point(a), p) < distance(loaded.tin.point(b), p);
-    });
     outlets.push_back(nearest);
     report.outlets.push_back(
         {.distance_m = distance(loaded.tin.point(nearest), p) * loaded.plane.metres_per_unit()});
@@ -82,7 +55,7 @@ std::vector<VertexId> place_outlets(const LoadedTin& loaded, const TriangleGrid&
 std::vector<std::pair<Point2, Point2>> list_seeds(const LoadedTin& loaded, const DrainConfig& config,
                                                   Progress& progress) {
   std::vector<std::pair<Point2, Point2>> seeds;
-  for (const Point2 p : read_points(config.seeds, loaded.crs, progress)) {
+  for (const Point2 p : read_places(config.seeds, loaded.crs, progress)) {
     seeds.emplace_back(p, loaded.plane.to_plane(p));
   }
   if (!config.seed_spacing_m) return seeds;

@@ -4,6 +4,7 @@
 // is missing there is added as a boundary constraint and the triangulation repeated. The surface is what lies
 // inside of the outline: a flood from the inner side of every outline edge that does not cross the outline.
 #include "pipeline/condition_tin.hpp"
+#include "pipeline/outlets.hpp"
 #include "pipeline/plane.hpp"
 #include "pipeline/surface.hpp"
 
@@ -108,6 +109,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   const Plane plane(crs, file.points);
   report.input.points_read = file.points.size() + report.tin.vertices_left_out;
   report.input.points_used = file.points.size();
+  std::vector<Point2> outlets = read_places(config.condition.outlets, crs, progress);
   progress.advance(1);
   report.timings_s.read = watch.lap();
 
@@ -119,9 +121,10 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   }
   progress.advance(1);
 
-  finish_run(std::move(terrain),
-             {plane, crs, config.labelling, config.condition, config.output, outputs, watch}, built,
-             progress);
+  finish_run(
+      std::move(terrain),
+      {plane, crs, config.labelling, config.condition, config.output, outputs, watch, std::move(outlets)},
+      built, progress);
   return built;
 }
 

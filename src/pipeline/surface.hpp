@@ -60,6 +60,7 @@ struct RunContext {
   const OutputConfig& output;
   RunOutputs& outputs;
   Stopwatch& watch;
+  std::vector<Point2> outlets;  ///< of conditioning, as written
 };
 
 /// Finds the quadrilaterals, optimises, checks, writes all outputs, and fills the rest of what is built; its

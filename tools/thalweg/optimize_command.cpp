@@ -23,7 +23,7 @@ void add_optimize_command(CLI::App& app) {
   command->add_option("TIN", a->config.input, "TIN file")->required();
   command->add_option("OUTPUT", a->config.output.path, "TIN file to write")->required();
   add_labelling_options(*command, a->labelling);
-  add_condition_options(*command, a->condition, kWhenConditioned);
+  add_condition_options(*command, a->condition);
   add_output_options(*command, a->config.output);
   add_common_options(*command, a->common);
   add_examples(*command,
@@ -31,7 +31,7 @@ void add_optimize_command(CLI::App& app) {
                "  thalweg optimize tin.ply tin.xml --of LandXML --report -\n");
   command->callback([a, command] {
     a->config.labelling = parse_labelling(a->labelling);
-    a->config.condition = parse_condition(*command, a->condition, {});
+    a->config.condition = parse_condition(*command, a->condition, {"--outlets"});
     a->config.output.announce = report_printer(a->common, a->config.output);
     optimize_tin(a->config, progress_of(a->common));
   });

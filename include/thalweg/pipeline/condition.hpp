@@ -2,6 +2,7 @@
 
 /// What of a run changes heights, only on request.
 
+#include <thalweg/io/source.hpp>
 #include <thalweg/terrain/condition.hpp>
 
 #include <algorithm>
@@ -16,6 +17,8 @@ struct ConditionConfig {
   std::vector<ConditionStep> steps;  ///< none: no height changes
   ChangeNorm norm = ChangeNorm::Sum;
   std::optional<double> max_m;  ///< no height changes by more
+  std::vector<SourceSpec>
+      outlets;  ///< of build and optimize: points where water leaves, so that no pit is removed
 
   [[nodiscard]] bool changes_pits() const {
     return std::any_of(steps.begin(), steps.end(),
