@@ -1,5 +1,6 @@
 // What a TIN file is: read, projected where its CRS is geographic, measured, checked.
 #include "pipeline/digest.hpp"
+#include "pipeline/lengths.hpp"
 #include "pipeline/loaded_tin.hpp"
 #include "pipeline/surface.hpp"
 
@@ -132,6 +133,9 @@ std::string to_json(const TinInfo& info) {
       {"hull_vertices", info.tin.hull_vertices},
       {"area_m2", info.tin.area_m2},
       {"area_geodesic_m2", info.tin.area_geodesic_m2 ? Json(*info.tin.area_geodesic_m2) : Json(nullptr)},
+      {"lengths_m", lengths_json(info.tin.lengths)},
+      {"lengths_geodesic_m",
+       info.tin.lengths_geodesic ? lengths_json(*info.tin.lengths_geodesic) : Json(nullptr)},
       {"min_angle_deg", info.tin.min_angle_deg},
       {"angle_histogram", info.tin.angle_histogram},
       {"aspect_histogram", histogram_json(info.statistics.aspect_histogram)},
@@ -161,6 +165,10 @@ std::string to_text(const TinInfo& info) {
   row("edges",
       fmt::format("{}, of which {} are constraint edges", info.tin.edges, info.tin.constraint_edges));
   row("area, m2", fmt::format("{:.1f}", info.tin.area_m2));
+  if (info.tin.area_geodesic_m2)
+    row("area on the ellipsoid, m2", fmt::format("{:.1f}", *info.tin.area_geodesic_m2));
+  row("lengths, m", lengths_text(info.tin.lengths));
+  if (info.tin.lengths_geodesic) row("on the ellipsoid, m", lengths_text(*info.tin.lengths_geodesic));
   row("pits", fmt::format("{} inside, {} on the boundary", info.pits.interior, info.pits.boundary));
   row("flat triangles", fmt::format("{}", info.tin.flat_triangles));
   row("smallest angle, degrees", fmt::format("{:.3f}", info.tin.min_angle_deg));

@@ -1,5 +1,6 @@
 // The report as JSON and as text. Both are views of the same struct; nothing is computed here.
 #include "base/printable.hpp"
+#include "pipeline/lengths.hpp"
 #include "pipeline/water_json.hpp"
 
 #include <thalweg/pipeline/report.hpp>
@@ -74,6 +75,8 @@ Json tin_json(const ReportTin& tin) {
           {"vertices_left_out", tin.vertices_left_out},
           {"area_m2", tin.area_m2},
           {"area_geodesic_m2", tin.area_geodesic_m2 ? Json(*tin.area_geodesic_m2) : Json(nullptr)},
+          {"lengths_m", lengths_json(tin.lengths)},
+          {"lengths_geodesic_m", tin.lengths_geodesic ? lengths_json(*tin.lengths_geodesic) : Json(nullptr)},
           {"min_angle_deg", tin.min_angle_deg},
           {"angle_histogram", tin.angle_histogram},
           {"angle_histogram_delaunay", tin.angle_histogram_delaunay},

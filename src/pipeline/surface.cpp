@@ -10,9 +10,10 @@
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/digest.hpp"
 #include "pipeline/higher_order.hpp"
+#include "pipeline/lengths.hpp"
 
 #include <thalweg/base/error.hpp>
-#include <thalweg/geodesy/area.hpp>
+#include <thalweg/geodesy/geodesic.hpp>
 #include <thalweg/io/picture.hpp>
 #include <thalweg/io/write_features.hpp>
 #include <thalweg/io/write_tin.hpp>
@@ -134,8 +135,11 @@ ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point
   report.constraint_edges = tin.constraint_edges().size();
   report.hull_vertices = statistics.hull_vertices;
   report.area_m2 = statistics.area_m2;
+  report.lengths = plane_lengths(tin, plane.metres_per_unit());
   if (plane.projected()) {
-    report.area_geodesic_m2 = geodesic_area_m2(plane.to_lonlat(written), rim_loops(tin), plane.ellipsoid());
+    const std::vector<Point2> lonlat = plane.to_lonlat(written);
+    report.area_geodesic_m2 = geodesic_area_m2(lonlat, rim_loops(tin), plane.ellipsoid());
+    report.lengths_geodesic = geodesic_lengths(tin, lonlat, plane.ellipsoid());
   }
   report.min_angle_deg = statistics.min_angle_deg;
   report.angle_histogram = statistics.angle_histogram;

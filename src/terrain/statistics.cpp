@@ -1,12 +1,13 @@
 // Figures of a TIN.
 //
 // 1. Blocks of triangles with fixed borders are measured in parallel, each into its own figures; the
-//    blocks' figures are added in order. Areas are added in double-double (Knuth's TwoSum), so the rounded
-//    sum does not depend on the order of triangles in practice: its error is some 2^-100 of the sum.
+//    blocks' figures are added in order. Areas are added in double-double, so the rounded sum does not
+//    depend on the order of triangles.
 // 2. A triangle's figures are computed from its lexicographically smallest corner, so they do not depend on
 //    ids.
 // 3. Angles are compared by their tangents; one arc tangent at the end.
 // 4. Hull: Andrew's monotone chain over the rim's vertices, exact, vertices within a side kept.
+#include "base/double_double.hpp"
 #include "base/parallel.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
@@ -22,25 +23,6 @@
 namespace thalweg {
 
 namespace {
-
-class DoubleDouble {
- public:
-  void add(double x) {
-    const double sum = high_ + x;
-    const double moved = sum - high_;
-    low_ += (high_ - (sum - moved)) + (x - moved);
-    high_ = sum;
-  }
-  void add(const DoubleDouble& other) {
-    add(other.high_);
-    add(other.low_);
-  }
-  [[nodiscard]] double value() const { return high_ + low_; }
-
- private:
-  double high_ = 0;
-  double low_ = 0;
-};
 
 struct Figures {
   DoubleDouble area;

@@ -3,6 +3,7 @@
 /// What a run tells about itself: the JSON report with fixed keys, and the same as a table for people.
 
 #include <thalweg/mesh/survey.hpp>
+#include <thalweg/pipeline/lengths_report.hpp>
 #include <thalweg/pipeline/water_report.hpp>
 
 #include <array>
@@ -55,7 +56,9 @@ struct ReportTin {
   std::size_t dropped_rim_triangles = 0;
   std::size_t vertices_left_out = 0;  ///< vertices that lost all triangles
   double area_m2 = 0;
-  std::optional<double> area_geodesic_m2;  ///< geographic input only
+  std::optional<double> area_geodesic_m2;         ///< geographic input only
+  ReportLengths lengths;                          ///< in the plane
+  std::optional<ReportLengths> lengths_geodesic;  ///< on the ellipsoid; geographic input only
   double min_angle_deg = 0;
   /// Triangles by their smallest angle, six bins of 10 degrees.
   std::array<std::size_t, 6> angle_histogram{};

@@ -1,11 +1,12 @@
 #pragma once
 
-/// Area on the ellipsoid.
+/// Lengths and areas on the ellipsoid.
 
 #include <thalweg/base/id.hpp>
 #include <thalweg/geodesy/metric_frame.hpp>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
@@ -19,5 +20,12 @@ namespace thalweg {
 /// Complexity: linear in the loops.
 double geodesic_area_m2(std::span<const Point2> lonlat_deg, std::span<const std::vector<VertexId>> rim_loops,
                         Ellipsoid ellipsoid = {});
+
+/// Length in metres of the geodesic between the ends of each edge, the same whichever end comes first. Edges
+/// index `lonlat_deg` (longitude, latitude, degrees). Throws: Error{BadCoordinate} for a position of an edge
+/// that is not finite or out of range. Complexity: linear in the edges.
+std::vector<double> geodesic_lengths_m(std::span<const Point2> lonlat_deg,
+                                       std::span<const std::pair<VertexId, VertexId>> edges,
+                                       Ellipsoid ellipsoid = {});
 
 }  // namespace thalweg

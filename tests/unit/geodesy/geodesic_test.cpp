@@ -1,11 +1,12 @@
-// Areas on the ellipsoid against known ones.
+// Lengths and areas on the ellipsoid against known ones.
 #include <thalweg/base/error.hpp>
-#include <thalweg/geodesy/area.hpp>
+#include <thalweg/geodesy/geodesic.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
@@ -56,6 +57,33 @@ TEST(GeodesicArea, BadPositionsAreRefused) {
   const std::vector<Point2> lonlat{{0, 0}, {1, 95}, {0, 1}};
   const std::vector<std::vector<VertexId>> loops{loop_of({0, 1, 2})};
   EXPECT_THROW(geodesic_area_m2(lonlat, loops), Error);
+}
+
+using Edges = std::vector<std::pair<VertexId, VertexId>>;
+
+TEST(GeodesicLength, KnownLines) {
+  // A degree of the equator is pi a / 180; the quarter meridian of WGS 84 is 10 001 965.729 m.
+  const std::vector<Point2> lonlat{{179.5, 0}, {-179.5, 0}, {17, 90}};
+  const Edges edges{{VertexId{0}, VertexId{1}}, {VertexId{1}, VertexId{0}}, {VertexId{1}, VertexId{2}}};
+  const std::vector<double> lengths = geodesic_lengths_m(lonlat, edges);
+  EXPECT_NEAR(lengths[0], std::numbers::pi * 6378137 / 180, 1e-8);
+  EXPECT_EQ(lengths[0], lengths[1]);
+  EXPECT_NEAR(lengths[2], 10001965.729, 1e-3);
+}
+
+TEST(GeodesicLength, FlindersPeakToBuninyong) {
+  // The example of the Geocentric Datum of Australia Technical Manual, chapter 4: 54 972.271 m on GRS 80.
+  const auto degrees = [](double d, double m, double s) { return d + m / 60 + s / 3600; };
+  const std::vector<Point2> lonlat{{degrees(144, 25, 29.52440), -degrees(37, 57, 3.72030)},
+                                   {degrees(143, 55, 35.38390), -degrees(37, 39, 10.15610)}};
+  const Edges edges{{VertexId{0}, VertexId{1}}};
+  EXPECT_NEAR(geodesic_lengths_m(lonlat, edges, {.flattening = 1 / 298.257222101})[0], 54972.271, 5e-4);
+}
+
+TEST(GeodesicLength, BadPositionsAreRefused) {
+  const std::vector<Point2> lonlat{{0, 0}, {1, 95}};
+  const Edges edges{{VertexId{0}, VertexId{1}}};
+  EXPECT_THROW(geodesic_lengths_m(lonlat, edges), Error);
 }
 
 }  // namespace
