@@ -34,7 +34,7 @@ double cheap_size(const std::string& path) {
 
 TextBlocks::TextBlocks(const std::string& path, std::string name) : name_(std::move(name)) {
   GdalSession session;
-  VSIStatBufL stat;
+  VSIStatBufL stat{};
   const bool exists = path.find("/vsistdin") != std::string::npos ||
                       VSIStatExL(path.c_str(), &stat, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0;
   if (!exists) throw Error(ErrorCode::NotFound, name_ + ": there is no such file");

@@ -47,11 +47,13 @@ std::string virtual_path(const std::string& path) {
   return plain_gz ? "/vsigzip/" + path : path;
 }
 
-/// True if GDAL knows the file as a raster of another kind than a list of points.
-bool is_raster(const std::string& path) {
+/// True if GDAL knows the file as data of these kinds, but no list of points in text.
+bool is_more_than_text(const std::string& path, unsigned kinds) {
   GdalSession session;
-  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
-  return driver != nullptr && std::string_view(GDALGetDriverShortName(driver)) != "XYZ";
+  GDALDriverH driver = GDALIdentifyDriverEx(path.c_str(), kinds, nullptr, nullptr);
+  if (driver == nullptr) return false;
+  const std::string_view name(GDALGetDriverShortName(driver));
+  return name != "XYZ" && name != "CSV";
 }
 
 class TextPoints : public SourceReader {
@@ -152,13 +154,15 @@ class TextPoints : public SourceReader {
 }  // namespace
 
 bool is_text(const SourceSpec& spec) {
-  if (spec.path.find("/vsistdin") != std::string::npos) return true;
+  // What is looked at stays in memory, and is read again.
+  if (spec.path.find("/vsistdin") != std::string::npos)
+    return !is_more_than_text(spec.path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
   const std::string path = without_gz(spec.path);
   for (const std::string_view extension : {".csv", ".tsv", ".xyz"}) {
     if (ends_with(path, extension)) return true;
   }
   for (const std::string_view extension : {".txt", ".asc", ".dat"}) {
-    if (ends_with(path, extension)) return !is_raster(virtual_path(spec.path));
+    if (ends_with(path, extension)) return !is_more_than_text(virtual_path(spec.path), GDAL_OF_RASTER);
   }
   return false;
 }

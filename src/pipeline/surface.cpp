@@ -158,10 +158,14 @@ ReportPits describe_pits(const PitSummary& pits) {
   return {.interior = pits.interior, .boundary = pits.boundary, .lake = pits.lake};
 }
 
+void note_unknown_crs(const CrsInfo& crs, Report& report) {
+  if (crs.known) return;
+  report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
+}
+
 void note_assumptions(const CrsInfo& crs, Report& report) {
-  if (!crs.known) {
-    report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
-  } else if (!crs.vertical_unit_told && crs.vertical_metres_per_unit != 1) {
+  note_unknown_crs(crs, report);
+  if (crs.known && !crs.vertical_unit_told && crs.vertical_metres_per_unit != 1) {
     report.notes.emplace_back(
         "the CRS does not tell the unit of heights: that of its coordinates is assumed (" +
         std::to_string(crs.vertical_metres_per_unit) + " m)");
