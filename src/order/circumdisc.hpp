@@ -22,6 +22,11 @@ class Circumdisc {
   [[nodiscard]] int side(Point2 p) const { return in_circle(a_, b_, c_, p); }
   /// Whether a point on the circle belongs to the disc by the tie rule. Pre: side(p) == 0, p is no corner.
   [[nodiscard]] bool wins_tie(Point2 p) const { return break_cocircular_tie(a_, b_, c_, p) > 0; }
+  /// Whether a point, no corner, is inside or belongs to the disc by the tie rule.
+  [[nodiscard]] bool holds(Point2 p) const {
+    const int where = side(p);
+    return where > 0 || (where == 0 && wins_tie(p));
+  }
   /// Whether segment pq meets the open disc. Pre: neither p nor q is strictly inside. Exact.
   [[nodiscard]] bool passes(Point2 p, Point2 q) const;
   /// A box that holds the closed disc; the whole plane where arithmetic does not bound it.

@@ -23,7 +23,9 @@
 //    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
 // 8. Of order 0 or 1, SeesVtx counts what SeesTriang does, and SeesOpp what ConfEdge does (Lemmas 5 and 6).
 //    So up to a limit of 1 the corners' views decide these, too; a vertex that an end of a side sees, and not
-//    the corner opposite, is asked for the side. Above it they tell that there are too many.
+//    the corner opposite, is asked for the side. Above it they tell that there are too many, or
+//    what else ConfEdge counts is found by looks through the sides (conf_edge_count.cpp).
+#include "order/conf_edge_count.hpp"
 #include "order/corner_views.hpp"
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
@@ -47,6 +49,7 @@ struct OrderWorkspace::Parts {
   detail::SideSight side_sight;
   detail::SweepCount sweeps;
   detail::CornerViews views;
+  detail::ConfEdgeCount conf_edge;
   std::vector<VertexId> undecided;
   std::vector<VertexId> counted;
 };
@@ -172,8 +175,7 @@ void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
                                 ground().point(corners[2]));
   parts_->grid->visit_box(disc.box(), [&](VertexId v) {
     if (std::find(corners.begin(), corners.end(), v) != corners.end()) return true;
-    const int side = disc.side(ground().point(v));
-    if (side > 0 || (side == 0 && disc.wins_tie(ground().point(v)))) counted.push_back(v);
+    if (disc.holds(ground().point(v))) counted.push_back(v);
     return counted.size() <= limit;
   });
 }
@@ -195,7 +197,7 @@ bool ConstrainedOrder::views_help(OrderDefinition definition, std::size_t limit)
 bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                                       OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
-  auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
+  auto& [flood, occupancy, side_sight, sweeps, views, conf_edge, undecided, counted] = *workspace.parts_;
   const bool vtx = definition == OrderDefinition::SeesVtx;
   const bool fewer = definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad;
   counted.clear();
@@ -214,11 +216,20 @@ bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition d
   return !views.gave_up();
 }
 
+// Adds to what SeesOpp counts what ConfEdge counts beside. False if that takes long.
+bool ConstrainedOrder::add_conflicts(const Triangle& corners, std::size_t limit,
+                                     OrderWorkspace& workspace) const {
+  std::vector<VertexId>& counted = workspace.parts_->counted;
+  const auto all = workspace.parts_->conf_edge.count(parts_->ground, corners, counted, limit);
+  if (all) counted.assign(all->begin(), all->end());
+  return all.has_value();
+}
+
 // As count, by a flood from a face that the triangle overlaps. False if that takes more faces.
 bool ConstrainedOrder::count_by_flood(const Triangle& corners, TriangleId start, OrderDefinition definition,
                                       const FloodLimits& limits, OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
-  auto& [flood, occupancy, side_sight, sweeps, views, undecided, counted] = *workspace.parts_;
+  auto& [flood, occupancy, side_sight, sweeps, views, conf_edge, undecided, counted] = *workspace.parts_;
   undecided.clear();
   counted.clear();
   const bool all = definition == OrderDefinition::Std || !ground.any_blocks();
@@ -269,7 +280,10 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
   if (same) definition = weaker;
   if (views_help(weaker, limit) && (same || limit != kUnlimited)) {
     if (count_by_flood(corners, face, definition, {limit, kFewFaces}, workspace)) return;
-    if (count_by_views(corners, weaker, limit, workspace) && (same || counted.size() > limit)) return;
+    if (count_by_views(corners, weaker, limit, workspace)) {
+      if (same || counted.size() > limit) return;
+      if (definition == OrderDefinition::ConfEdge && add_conflicts(corners, limit, workspace)) return;
+    }
   }
   count_by_flood(corners, face, definition, {limit, kUnlimited}, workspace);
 }

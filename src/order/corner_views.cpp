@@ -16,27 +16,46 @@
 
 namespace thalweg::detail {
 
-void CornerViews::start(const Ground& ground, const Triangle& corners, Eyes eyes) {
+void CornerViews::set_up(const Ground& ground, const Triangle& corners, std::size_t last_turn) {
   ground_ = &ground;
   corners_ = corners;
-  eyes_ = eyes;
   disc_ = Circumdisc(ground.point(corners[0]), ground.point(corners[1]), ground.point(corners[2]));
   faces_ = 0;
+  last_turn_ = last_turn;
+}
+
+void CornerViews::start(const Ground& ground, const Triangle& corners, Eyes eyes) {
+  set_up(ground, corners, eyes == Eyes::Opposite ? 2 : 8);
   turn_to(0);
+}
+
+void CornerViews::start_through(const Ground& ground, const Triangle& corners, std::size_t side,
+                                VertexId eye) {
+  set_up(ground, corners, side);
+  turn_ = side;
+  clear();
+  u_ = corners[side];
+  v_ = corners[(side + 1) % 3];
+  eye_ = eye;
+  look_through_side();
+}
+
+void CornerViews::clear() {
+  open_.clear();
+  at_border_.clear();
+  neighbours_.clear();
 }
 
 void CornerViews::turn_to(std::size_t turn) {
   turn_ = turn;
-  open_.clear();
-  at_border_.clear();
-  neighbours_.clear();
+  clear();
   u_ = corners_[turn % 3];
   v_ = corners_[(turn + 1) % 3];
   eye_ = turn < 3 ? corners_[(turn + 2) % 3] : turn < 6 ? u_ : v_;
-  turn < 3 ? look_from_opposite() : look_from_end();
+  turn < 3 ? look_through_side() : look_from_end();
 }
 
-void CornerViews::look_from_opposite() {
+void CornerViews::look_through_side() {
   const Tin& tin = ground_->tin();
   const Point2 from = ground_->point(eye_);
   const Angle angle{ground_->point(u_), ground_->point(v_)};
@@ -51,10 +70,7 @@ void CornerViews::look_from_opposite() {
 // Faces that reach right of uv. Behind the eye they are not cut: there the disc ends at its tangent.
 void CornerViews::look_from_end() {
   const Tin& tin = ground_->tin();
-  for (const auto& [a, b] : {std::pair(u_, v_), std::pair(v_, u_)}) {
-    const HalfedgeId h = tin.find_halfedge(a, b);
-    if (h.valid() && ground_->blocks(h)) return;
-  }
+  if (ground_->blocks_between(u_, v_)) return;
   const Point2 u = ground_->point(u_), v = ground_->point(v_);
   const VertexId other = eye_ == u_ ? v_ : u_;
   const auto beyond = [&](VertexId x) { return orientation(u, v, ground_->point(x)) < 0; };
@@ -78,8 +94,7 @@ bool CornerViews::wanted(VertexId x) const {
   if (std::find(corners_.begin(), corners_.end(), x) != corners_.end()) return false;
   const Point2 at = ground_->point(x);
   if (orientation(ground_->point(u_), ground_->point(v_), at) >= 0) return false;
-  const int side = disc_.side(at);
-  return side > 0 || (side == 0 && disc_.wins_tie(at));
+  return disc_.holds(at);
 }
 
 bool CornerViews::meets(HalfedgeId edge) const {
@@ -92,7 +107,6 @@ bool CornerViews::meets(HalfedgeId edge) const {
 std::optional<CornerViews::View> CornerViews::next() {
   const Tin& tin = ground_->tin();
   const auto view = [&](VertexId seen) { return View{seen, u_, v_, turn_ < 3}; };
-  const std::size_t last_turn = eyes_ == Eyes::Opposite ? 2 : 8;
   while (!gave_up()) {
     if (!neighbours_.empty()) {
       const VertexId seen = neighbours_.back();
@@ -100,7 +114,7 @@ std::optional<CornerViews::View> CornerViews::next() {
       return view(seen);
     }
     if (open_.empty()) {
-      if (turn_ == last_turn) return std::nullopt;
+      if (turn_ == last_turn_) return std::nullopt;
       turn_to(turn_ + 1);
       continue;
     }

@@ -25,6 +25,9 @@ class CornerViews {
   };
   /// Pre: corners counter-clockwise, a valid triangle of the ground.
   void start(const Ground& ground, const Triangle& corners, Eyes eyes);
+  /// Looks through one side, from corners[side] to the next, from a vertex inside beyond another side.
+  /// Pre: as for start.
+  void start_through(const Ground& ground, const Triangle& corners, std::size_t side, VertexId eye);
   /// The next vertex that an eye sees, in no promised order, for each eye once. None if there is no further
   /// one, or if the walk grew too long. Complexity, all calls together: a face for each time that the lines
   /// of sight to two neighbouring vertices enclose it.
@@ -40,8 +43,10 @@ class CornerViews {
     HalfedgeId edge;
     Angle angle;
   };
+  void set_up(const Ground& ground, const Triangle& corners, std::size_t last_turn);
+  void clear();
   void turn_to(std::size_t turn);
-  void look_from_opposite();
+  void look_through_side();
   void look_from_end();
   void add_neighbour(VertexId v);
   [[nodiscard]] bool wanted(VertexId v) const;
@@ -49,8 +54,8 @@ class CornerViews {
 
   const Ground* ground_ = nullptr;
   Triangle corners_{};
-  Eyes eyes_ = Eyes::Opposite;
-  std::size_t turn_ = 0;  ///< 0 to 2: opposite corners; 3 to 8: ends of sides
+  std::size_t turn_ = 0;  ///< 0 to 2: through that side; 3 to 8: ends of sides
+  std::size_t last_turn_ = 0;
   VertexId eye_, u_, v_;
   std::size_t faces_ = 0;
   Circumdisc disc_;

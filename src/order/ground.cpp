@@ -77,6 +77,11 @@ bool Ground::find_simple_polygons() const {
   return vertices + tin_->triangle_count() == tin_->edge_count() + count;
 }
 
+bool Ground::blocks_between(VertexId a, VertexId b) const {
+  const HalfedgeId ab = tin_->find_halfedge(a, b), ba = tin_->find_halfedge(b, a);
+  return (ab.valid() && blocks(ab)) || (ba.valid() && blocks(ba));
+}
+
 bool Ground::sees(VertexId p, VertexId q) const {
   for (VertexId at = p; at != q;) {
     const Step step = next_vertex(at, q);

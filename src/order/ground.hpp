@@ -23,6 +23,8 @@ class Ground {
   [[nodiscard]] bool blocks(HalfedgeId h) const {
     return tin_->constrained(h) || (mode_ == GroundMode::Polygon && tin_->on_rim(h));
   }
+  /// Whether an edge that blocks joins two vertices.
+  [[nodiscard]] bool blocks_between(VertexId a, VertexId b) const;
   /// Whether a vertex is an end of an edge that blocks.
   [[nodiscard]] bool blocks(VertexId v) const { return blocking_[v.index()]; }
   [[nodiscard]] bool any_blocks() const { return any_blocks_; }

@@ -20,6 +20,10 @@
 // 4. The faces that uv crosses: their corners right of uv are in light, along the edges that cross uv. Of two
 //    that follow each other, each bounds the light through the edge between them; the chains are those that a
 //    shortest path from u to one, and from v to the other, loses on its way to the next: a Graham scan.
+// 5. None of this needs the dual to be a tree: a window is a way from face to face, and chains are those of
+//    the paths along it. Where edges that block stand alone in the ground, light goes past both of their
+//    ends, and meets again. A vertex that blocks nothing cuts light like others: what lies straight behind it
+//    is strictly between the rays of a window at its other side.
 #include "order/side_view.hpp"
 
 #include <algorithm>
@@ -150,20 +154,21 @@ void SideView::enter(const Window& window) {
   open_.push_back({left_exit, append(right_halves.far, x), left_halves.near});
 }
 
-std::span<const VertexId> SideView::look(const Ground& ground, const Circumdisc& disc, VertexId u,
-                                         VertexId v) {
+std::span<const VertexId> SideView::look(const Ground& ground, const Circumdisc& disc, VertexId u, VertexId v,
+                                         std::size_t most_faces) {
   const Tin& tin = ground.tin();
   ground_ = &ground;
   links_.clear();
   open_.clear();
   open_windows(u, v);
-  while (!open_.empty()) {
+  for (std::size_t faces = 0; !open_.empty() && faces < most_faces;) {
     const Window window = open_.back();
     open_.pop_back();
-    if (ground.blocks(window.edge)) continue;
+    if (ground.blocks(window.edge) || tin.on_rim(window.edge)) continue;
     const Point2 right = ground.point(tin.origin(window.edge)), left = ground.point(tin.target(window.edge));
     if (disc.side(right) < 0 && disc.side(left) < 0 && !disc.passes(right, left)) continue;
     enter(window);
+    ++faces;
   }
   return visible_;
 }

@@ -1,11 +1,12 @@
 #pragma once
 
-/// What a side of a triangle in a simple polygon sees inside a disc, by one walk along the dual tree.
+/// What a side of a triangle sees inside a disc, by one walk from face to face.
 
 #include "order/circumdisc.hpp"
 #include "order/ground.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,10 +16,14 @@ namespace thalweg::detail {
 class SideView {
  public:
   /// The vertices that see a point of the open side uv along a segment in the disc, and some more that see
-  /// one; in no promised order. Pre: ground.simple_polygons(); the side of a valid triangle to the left of
-  /// uv, which does not block. Complexity: n log n at most for the n faces that meet the disc; each is
-  /// entered once.
-  std::span<const VertexId> look(const Ground& ground, const Circumdisc& disc, VertexId u, VertexId v);
+  /// one; in no promised order, over simple polygons each once. Stops after `most_faces`. Pre: the side of a
+  /// valid triangle to the left of uv, which does not block. Complexity: n log n at most for n faces entered;
+  /// over simple polygons each that meets the disc once at most, else once for each way between the obstacles
+  /// along which light comes to it.
+  std::span<const VertexId> look(const Ground& ground, const Circumdisc& disc, VertexId u, VertexId v,
+                                 std::size_t most_faces = std::numeric_limits<std::size_t>::max());
+  /// Whether the last walk was stopped: then what it found is not all.
+  [[nodiscard]] bool gave_up() const { return !open_.empty(); }
 
  private:
   /// Of a chain: the corners at which the lit ground bends, from the far end, near uv, to the near one.

@@ -1,4 +1,6 @@
-// Angular sweeps against the oracle on small scenes, and against tests of pairs on large ones.
+// Angular sweeps, and looks through sides, against the oracle on small scenes, and against tests of pairs on
+// large ones.
+#include "order/conf_edge_count.hpp"
 #include "order/occupancy.hpp"
 #include "order/sweep_count.hpp"
 
@@ -12,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 namespace thalweg {
@@ -29,10 +33,20 @@ Triangle counter_clockwise(const Tin& tin, Triangle t) {
   return t;
 }
 
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+
+std::vector<VertexId> sorted(std::span<const VertexId> vertices) {
+  std::vector<VertexId> list(vertices.begin(), vertices.end());
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
 struct Counter {
   const Ground& ground;
   detail::Flood flood;
   detail::SweepCount sweeps;
+  detail::ConfEdgeCount conf_edge;
+  std::size_t found = 0;  ///< by looks through sides
 
   TriangleId flood_from(const Triangle& corners) {
     const TriangleId start =
@@ -44,10 +58,23 @@ struct Counter {
   }
   std::vector<VertexId> counted(const Triangle& corners, OrderDefinition definition) {
     const TriangleId start = flood_from(corners);
-    const auto found = sweeps.count(ground, corners, start, definition, flood);
-    std::vector<VertexId> list(found.begin(), found.end());
-    std::sort(list.begin(), list.end());
-    return list;
+    return sorted(sweeps.count(ground, corners, start, definition, flood));
+  }
+  // Looks through sides, where they do not go far, must count the same, and stop as soon as there are more.
+  void expect_conflicts(const Triangle& corners, const std::vector<VertexId>& by_corners,
+                        const std::vector<VertexId>& expected) {
+    const auto all = conf_edge.count(ground, corners, by_corners, kUnlimited);
+    if (all) {
+      ++found;
+      ASSERT_EQ(sorted(*all), expected);
+    }
+    for (std::size_t limit = by_corners.size(); limit < by_corners.size() + 4; ++limit) {
+      const auto some = conf_edge.count(ground, corners, by_corners, limit);
+      ASSERT_TRUE(some || !all);
+      if (some) {
+        ASSERT_EQ(some->size() > limit, expected.size() > limit);
+      }
+    }
   }
 };
 
@@ -55,10 +82,11 @@ TEST(Sweeps, CountWhatTheOracleCounts) {
   oracle::for_each_scene(oracle::kStreams, 40, {.most = 16, .constraints = 10}, [](const Oracle& truth) {
     const Tin tin = test::ground_of(truth.scene());
     const Ground ground(tin, test::mode_of(truth.scene()));
-    Counter counter{ground, {}, {}};
+    Counter counter{ground, {}, {}, {}, 0};
     for (const oracle::Corners& corners : truth.valid_triangles()) {
       const auto expected = truth.counted(corners);
       const Triangle t = counter_clockwise(tin, test::triangle(corners));
+      std::vector<VertexId> conf_edge;  // which comes before SeesOpp
       for (const OrderDefinition definition : kSwept) {
         std::vector<VertexId> vertices;
         for (int v = 0; v < oracle::kMaxSites; ++v) {
@@ -68,6 +96,8 @@ TEST(Sweeps, CountWhatTheOracleCounts) {
         }
         ASSERT_EQ(counter.counted(t, definition), vertices)
             << definition_name(definition) << " of " << oracle::to_text(corners);
+        if (definition == OrderDefinition::ConfEdge) conf_edge = vertices;
+        if (definition == OrderDefinition::SeesOpp) counter.expect_conflicts(t, vertices, conf_edge);
       }
     }
   });
@@ -135,7 +165,7 @@ void expect_same_as_pairs(const Tin& tin, GroundMode mode, test::Random& random,
   const Ground ground(tin, mode);
   const ConstrainedOrder order(tin, mode);
   OrderWorkspace workspace;
-  Counter counter{ground, {}, {}};
+  Counter counter{ground, {}, {}, {}, 0};
   for (int tries = 0, found = 0; tries < 20000 && found < 40; ++tries) {
     const auto any = [&] { return VertexId{random.integer<std::size_t>(0, tin.vertex_count() - 1)}; };
     Triangle t{any(), any(), any()};
@@ -145,6 +175,7 @@ void expect_same_as_pairs(const Tin& tin, GroundMode mode, test::Random& random,
     if (counter.flood.inside().size() < fewest) continue;
     ++found;
     const std::vector<VertexId> inside(counter.flood.inside().begin(), counter.flood.inside().end());
+    std::vector<VertexId> conf_edge;
     for (const OrderDefinition definition : kSwept) {
       std::vector<VertexId> expected;
       for (const VertexId p : inside) {
@@ -152,9 +183,12 @@ void expect_same_as_pairs(const Tin& tin, GroundMode mode, test::Random& random,
       }
       std::sort(expected.begin(), expected.end());
       ASSERT_EQ(counter.counted(t, definition), expected) << definition_name(definition);
+      if (definition == OrderDefinition::ConfEdge) conf_edge = expected;
+      if (definition == OrderDefinition::SeesOpp) counter.expect_conflicts(t, expected, conf_edge);
       ASSERT_EQ(order.counted(t, definition, workspace), expected) << definition_name(definition);
     }
   }
+  EXPECT_GT(counter.found, 0U);
 }
 
 TEST(Sweeps, CountWhatPairsCount) {
