@@ -55,10 +55,10 @@ void compare(MakeScene make, const SceneOptions& options, int scenes) {
 }
 
 TEST(OrderTriangles, AreCompleteInGeneralPosition) {
-  compare(oracle::random_scene, {.most = 16, .constraints = 10}, 60);
+  compare(oracle::random_scene, {.most = 16, .constraints = 10}, 250);
 }
 TEST(OrderTriangles, AreCompleteOnLattices) {
-  compare(oracle::random_lattice_scene, {.most = 16, .range = 5, .constraints = 8}, 60);
+  compare(oracle::random_lattice_scene, {.most = 16, .range = 5, .constraints = 8}, 63);
 }
 TEST(OrderTriangles, AreCompleteOnCirclesAndTheirTangents) {
   compare(oracle::random_circle_scene, {.most = 16, .constraints = 8}, 40);

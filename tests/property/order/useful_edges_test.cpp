@@ -8,6 +8,7 @@
 #include <support/scene_tin.hpp>
 
 #include <map>
+#include <string>
 
 namespace thalweg {
 namespace {
@@ -38,52 +39,68 @@ std::map<Edge, std::optional<int>> useful_by_library(const Library& library, Use
   return useful;
 }
 
-std::map<Edge, int> useful_by_enumeration(const oracle::Enumeration& all, OrderDefinition definition) {
+std::map<Edge, int> useful_by_enumeration(const oracle::Enumeration& all, OrderDefinition definition,
+                                          std::size_t k) {
   auto useful = all.useful_orders(static_cast<oracle::Definition>(definition));
-  std::erase_if(useful, [](const auto& entry) { return entry.second > static_cast<int>(kLargestOrder); });
+  std::erase_if(useful, [&](const auto& entry) { return entry.second > static_cast<int>(k); });
   return useful;
 }
 
-TEST(UsefulEdges, AreThoseOfAllTriangulations) {
-  for_each_scene(kStreams, 25, kSmall, [](const Oracle& oracle) {
+void expect_same(const std::map<Edge, std::optional<int>>& found, const std::map<Edge, int>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [edge, order] : found) {
+    ASSERT_TRUE(order.has_value());
+    ASSERT_TRUE(expected.contains(edge)) << edge.first << "-" << edge.second;
+    ASSERT_EQ(*order, expected.at(edge)) << edge.first << "-" << edge.second;
+  }
+}
+
+// No useful edge is missing, and what is decided is right: all of it, if `exact`.
+void expect_no_contradiction(const std::map<Edge, std::optional<int>>& found,
+                             const std::map<Edge, int>& expected, bool exact) {
+  for (const auto& [edge, order] : expected) ASSERT_TRUE(found.contains(edge));
+  for (const auto& [edge, order] : found) {
+    ASSERT_TRUE(order.has_value() || !exact);
+    if (!order) continue;
+    ASSERT_TRUE(expected.contains(edge));
+    ASSERT_EQ(*order, expected.at(edge));
+  }
+}
+
+using Law = void (*)(const oracle::Enumeration&, const Library&, OrderDefinition, std::size_t k);
+
+// Holds a law against each scene, under each definition, for each k.
+void for_each_order(const Law& law) {
+  for_each_scene(kStreams, 25, kSmall, [&](const Oracle& oracle) {
     const oracle::Enumeration all = enumerate(oracle);
     const Library library(oracle);
     for (const OrderDefinition definition : kOrderDefinitions) {
-      const auto found = useful_by_library(library, {.definition = definition, .max_order = kLargestOrder});
-      const auto expected = useful_by_enumeration(all, definition);
-      ASSERT_EQ(found.size(), expected.size()) << definition_name(definition);
-      for (const auto& [edge, order] : found) {
-        ASSERT_TRUE(order.has_value());
-        ASSERT_TRUE(expected.contains(edge)) << edge.first << "-" << edge.second;
-        ASSERT_EQ(*order, expected.at(edge))
-            << definition_name(definition) << " " << edge.first << "-" << edge.second;
+      for (std::size_t k = 0; k <= kLargestOrder && !testing::Test::HasFailure(); ++k) {
+        SCOPED_TRACE(std::string(definition_name(definition)) + ", k = " + std::to_string(k));
+        law(all, library, definition, k);
       }
     }
   });
+}
+
+TEST(UsefulEdges, AreThoseOfAllTriangulations) {
+  for_each_order(
+      [](const oracle::Enumeration& all, const Library& library, OrderDefinition definition, std::size_t k) {
+        const auto found = useful_by_library(library, {.definition = definition, .max_order = k});
+        expect_same(found, useful_by_enumeration(all, definition, k));
+      });
 }
 
 // Without the search of faces: what the greedy triangulation decides is right, and nothing useful is missing.
 TEST(UsefulEdges, AreNoneOtherByGreedyTriangulations) {
-  for_each_scene(kStreams, 25, kSmall, [](const Oracle& oracle) {
-    const oracle::Enumeration all = enumerate(oracle);
-    const Library library(oracle);
-    for (const OrderDefinition definition : kOrderDefinitions) {
-      const auto found =
-          useful_by_library(library, {.definition = definition, .max_order = kLargestOrder, .work_limit = 0});
-      const auto expected = useful_by_enumeration(all, definition);
-      for (const auto& [edge, order] : expected) {
-        ASSERT_TRUE(found.contains(edge)) << definition_name(definition);
-      }
-      const bool exact = definition == OrderDefinition::Pathcon || definition == OrderDefinition::ConfEdge ||
-                         definition == OrderDefinition::SeesOpp;
-      for (const auto& [edge, order] : found) {
-        ASSERT_TRUE(order.has_value() || !exact) << definition_name(definition);
-        if (!order) continue;
-        ASSERT_TRUE(expected.contains(edge)) << definition_name(definition);
-        ASSERT_EQ(*order, expected.at(edge)) << definition_name(definition);
-      }
-    }
-  });
+  for_each_order(
+      [](const oracle::Enumeration& all, const Library& library, OrderDefinition definition, std::size_t k) {
+        const auto found =
+            useful_by_library(library, {.definition = definition, .max_order = k, .work_limit = 0});
+        const bool exact = definition == OrderDefinition::Pathcon ||
+                           definition == OrderDefinition::ConfEdge || definition == OrderDefinition::SeesOpp;
+        expect_no_contradiction(found, useful_by_enumeration(all, definition, k), exact);
+      });
 }
 
 TEST(GreedyTriangulation, IsTheOracles) {
