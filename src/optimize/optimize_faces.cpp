@@ -14,6 +14,7 @@
 #include "optimize/face_network.hpp"
 #include "optimize/first_order_problem.hpp"
 #include "optimize/label_solver.hpp"
+#include "optimize/objective_value.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/optimize/optimize_faces.hpp>
@@ -241,16 +242,6 @@ class FaceRun {
             delaunay_.constraint_edges()};
   }
 
-  /// Value of an objective on a TIN, in steps, signs turned where it is maximised.
-  [[nodiscard]] WideSteps value_on(const Tin& tin, const Objective& objective) const {
-    const std::vector<std::uint32_t> owner(tin.triangle_count(), kNone);
-    const TermScan scan(tin, {}, owner, scale_, reference_);
-    Labelling<1> none;
-    if (objective.is(Criterion::LocalMinima)) return static_cast<WideSteps>(count_pits(tin));
-    if (objective.is_extreme()) return extreme_of(scan, objective, none.first, {}, progress_);
-    return add_objective(scan, objective, 0, none, progress_);
-  }
-
   /// Sum of the orders of a TIN's triangles.
   [[nodiscard]] WideSteps order_sum_on(const Tin& tin) const {
     WideSteps sum = 0;
@@ -323,7 +314,7 @@ class FaceRun {
     if (values.empty()) return;
     const Choice before = solve_up_to(level);
     const auto worst = [&](const Choice& choice) {
-      return static_cast<std::int64_t>(value_on(tin_of(choice), objective));
+      return static_cast<std::int64_t>(value_on(tin_of(choice), objective, scale_, reference_, progress_));
     };
     std::int64_t reached = worst(before);
     settled.bound = values.front();
@@ -380,20 +371,18 @@ class FaceRun {
       line.direction = levels_[level]->direction() == Direction::Minimise ? "min" : "max";
     }
     const auto value = [&](const Tin& of) {
-      return levels_[level] ? value_on(of, *levels_[level]) : order_sum_on(of);
+      return levels_[level] ? value_on(of, *levels_[level], scale_, reference_, progress_) : order_sum_on(of);
     };
     const WideSteps delaunay = value(delaunay_), result = value(tin);
     WideSteps bound = result - (choice.value.level[level] - choice.bound.level[level]);
-    const bool is_count = counts_pits(level) || !levels_[level];
     if (counts_pits(level)) bound = choice.bound.level[level];
     if (is_extreme(level)) bound = settled_[level].bound;
-    const double per_unit = is_count ? 1 : steps_per_unit(*levels_[level]);
-    const auto in_units = [&](WideSteps steps) {
-      return steps == 0 ? 0 : static_cast<double>(steps) / per_unit;
+    const auto as_reported = [&](WideSteps steps) {
+      return levels_[level] ? in_units(steps, *levels_[level]) : static_cast<double>(steps);
     };
-    line.delaunay = in_units(delaunay);
-    line.result = in_units(result);
-    line.bound = in_units(bound);
+    line.delaunay = as_reported(delaunay);
+    line.result = as_reported(result);
+    line.bound = as_reported(bound);
     line.optimal = result == bound;
     line.method = method_name(choice.figures);
     if (is_extreme(level)) line.method = "bisection over limits by " + line.method;

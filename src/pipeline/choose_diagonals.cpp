@@ -163,7 +163,8 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
   Labelled labelled;
   if (run.labelling.by_faces() && !run.outputs.proof.empty()) {
     throw Error(ErrorCode::Unsupported,
-                "--proof is written for orders 0 and 1 only, and under definitions up to sees-opp");
+                "--proof is written for orders 0 and 1 only, under definitions up to sees-opp, and with "
+                "--method exact");
   }
   if (std::find(terrain.keep.begin(), terrain.keep.end(), true) == terrain.keep.end()) {
     throw Error(ErrorCode::EmptyInput,

@@ -102,7 +102,8 @@ SurfaceFaces find_surface_faces(const Terrain& terrain, const Tin& surface, cons
   progress.advance(0.9);
   if (faces) {
     found.faces = std::move(*faces);
-    if (labelling.order == 1) found.narrowed = narrow(found.faces, terrain, surface, progress);
+    if (labelling.order == 1 && !labelling.heuristic)
+      found.narrowed = narrow(found.faces, terrain, surface, progress);
     return found;
   }
   throw no_triangulation(terrain, labelling, progress);
@@ -134,7 +135,9 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces&
       .common = options,
       .order_sum_after = labelling.least_orders ? std::optional<std::size_t>(1) : std::nullopt};
   FaceOptimizeResult result =
-      optimize_faces(delaunay, faces.narrowed ? *faces.narrowed : faces.faces, choice_of, progress);
+      labelling.heuristic
+          ? optimize_faces_by(*labelling.heuristic, delaunay, faces.faces, choice_of, progress)
+          : optimize_faces(delaunay, faces.narrowed ? *faces.narrowed : faces.faces, choice_of, progress);
   if (faces.narrowed) take_bounds(optimize_faces(delaunay, faces.faces, choice_of, progress), result);
   HigherOrderChoice choice;
   choice.criteria = std::move(result.criteria);

@@ -19,9 +19,9 @@ struct SurfaceFaces {
   /// Not all triangles of the order could be listed, so the faces are for the triangulations that have no
   /// other edges than those of the ground and other diagonals of its first-order quadrilaterals.
   bool only_flips = false;
-  /// At order 1, if some faces have too many triangulations to list: faces for the triangulations that in
-  /// these have no other edges than those of the ground and diagonals that SeesOpp frees, of which no two
-  /// overlap. What is chosen is chosen from these; bounds are for all.
+  /// At order 1, chosen exactly, if some faces have too many triangulations to list: faces for the
+  /// triangulations that in these have no other edges than those of the ground and diagonals that SeesOpp
+  /// frees, of which no two overlap. What is chosen is chosen from these; bounds are for all.
   std::optional<FixedFaces> narrowed;
 };
 

@@ -46,6 +46,12 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
                   "none, or criteria in order of priority, separated by commas: " + criterion_names() +
                       "; or weighted sums, as 2*edge-length+flat-triangles")
       ->capture_default_str();
+  command
+      .add_option(
+          "--method", arguments.method,
+          "how local-minima, the first criterion, gets few: exact; or a published heuristic, to compare "
+          "with: flip, hull. These do not look at the criteria after it; bounds are those of exact")
+      ->capture_default_str();
   command.add_option("--reference", arguments.reference,
                      "what vertical-error is measured against: a DEM, or points");
   command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)");
@@ -81,6 +87,25 @@ std::vector<Objective> parse_criteria(const std::string& text) {
   return criteria;
 }
 
+std::optional<PitHeuristic> parse_method(const std::string& text) {
+  if (text == "exact") return std::nullopt;
+  if (text == "flip") return PitHeuristic::Flip;
+  if (text == "hull") return PitHeuristic::Hull;
+  throw Error(ErrorCode::Usage, "--method takes exact, flip or hull, not '" + text + "'");
+}
+
+/// Heuristics need pits to count, and an order that leaves a choice.
+void check_heuristic(const LabellingConfig& config, const std::string& method) {
+  if (!config.heuristic) return;
+  if (config.criteria.empty() || !config.criteria[0].is(Criterion::LocalMinima)) {
+    throw Error(ErrorCode::Usage,
+                "--method " + method + ": the first criterion of --optimize must be local-minima");
+  }
+  if (config.least_orders || config.order == 0) {
+    throw Error(ErrorCode::Usage, "--method " + method + " goes with an --order of 1 or more, not with auto");
+  }
+}
+
 }  // namespace
 
 LabellingConfig parse_labelling(const LabellingArguments& arguments) {
@@ -102,6 +127,8 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   if (config.least_orders && (config.criteria.empty() || !config.criteria[0].is(Criterion::LocalMinima))) {
     throw Error(ErrorCode::Usage, "--order auto: the first criterion of --optimize must be local-minima");
   }
+  config.heuristic = parse_method(arguments.method);
+  check_heuristic(config, arguments.method);
   if (arguments.effort > 0) config.effort = arguments.effort;
   const auto needs_reference = [](const Objective& objective) { return objective.needs_reference(); };
   const bool needed = std::any_of(config.criteria.begin(), config.criteria.end(), needs_reference);

@@ -16,6 +16,7 @@ struct LabellingArguments {
   std::string order_max;
   std::string definition = "sees-opp";
   std::string optimize = "local-minima,normal-angle-sum";
+  std::string method = "exact";
   std::uint64_t effort = 0;
   std::string reference;
 };

@@ -28,7 +28,8 @@ std::string in_mebibytes(std::size_t bytes) {
 }  // namespace
 
 MemoryEstimate::MemoryEstimate(const BuildConfig& config)
-    : bytes_a_vertex_(config.labelling.order > 1 ? kBytesAVertexAboveOrder1 : kBytesAVertex) {
+    : bytes_a_vertex_(config.labelling.order > 1 || config.labelling.heuristic ? kBytesAVertexAboveOrder1
+                                                                               : kBytesAVertex) {
   if (config.max_error_m || config.max_points) bytes_a_vertex_ += kBytesToSimplify;
   // The program itself is there already.
   const MemoryRoom room = memory_room();

@@ -323,8 +323,9 @@ void refuse_with_faces(const Terrain& terrain, const RunContext& run) {
   const auto refuse = [&](const std::string& what) {
     throw Error(
         ErrorCode::Unsupported,
-        what + (run.labelling.order > 1
-                    ? " is not available at orders above 1; take --order 1"
+        what + (run.labelling.order > 1 ? " is not available at orders above 1; take --order 1"
+                : run.labelling.heuristic
+                    ? " is not available with --method flip and hull; take --method exact"
                     : " is not available under sees-3vtx and empty-quad; take --definition sees-opp"));
   };
   if (!run.outputs.problem.empty()) refuse("--dump-problem");

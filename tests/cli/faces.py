@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The same inputs through the command line, C, Python and QGIS give the same bytes of mesh.
 
-Three inputs: points with lines of a GeoPackage, a DEM in degrees with valleys, a DEM that is simplified; and the first
+Four inputs: points with lines of a GeoPackage, a DEM in degrees with valleys, points by the hull heuristic at order 2, a DEM that is simplified; and the first
 result, optimised anew. A face that is not there (NumPy, QGIS) is named and left out.
 
 Usage: faces.py BINARY LIBRARY C_PROGRAM SOURCE
@@ -25,6 +25,8 @@ BUILDS = [
                 "RIDGES": f"{SURVEY}/lines.gpkg|layername=ridges"})),
     ("degrees", f"{HILLS}/dem.tif", {"valleys": f"{HILLS}/lines.gpkg|layername=valleys_3d", "definition": "pathcon"},
      ("build", {"VALLEYS": f"{HILLS}/lines.gpkg|layername=valleys_3d", "DEFINITION": 2})),
+    ("hulls", "points.gpkg", {"z-field": "z", "order": "2", "method": "hull"},
+     ("build", {"Z_FIELD": "z", "ORDER": 2, "METHOD": 2})),
     ("simplified", f"{HILLS}/dem.tif", {"max-error": "12", "ridges": f"{HILLS}/lines.gpkg|layername=ridges"},
      ("simplify", {"MAX_ERROR": 12, "RIDGES": f"{HILLS}/lines.gpkg|layername=ridges"})),
 ]

@@ -85,7 +85,7 @@ print('pits', pits.renderer().symbol().color().name(), pits.featureCount() > 0)
 project.write('project.qgz')
 settings = QgsMapSettings()
 from thalweg_tin import build
-for words in (build.DEFINITIONS, build.CROSSINGS, build.DUPLICATES, build.NODATA):
+for words in (build.DEFINITIONS, build.CROSSINGS, build.DUPLICATES, build.NODATA, build.METHODS):
     print('words', sorted(words))
 order = ['Pits', 'Conflicts', 'Breaklines', 'Network', 'Catchments', 'project']
 settings.setLayers([layers[name] for name in order])

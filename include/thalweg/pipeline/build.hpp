@@ -8,6 +8,7 @@
 #include <thalweg/io/source.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/optimize/optimize.hpp>
+#include <thalweg/optimize/pit_heuristics.hpp>
 #include <thalweg/order/definition.hpp>
 #include <thalweg/pipeline/condition.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -46,11 +47,14 @@ struct LabellingConfig {
   std::optional<std::uint64_t> effort;  ///< work limit, a count; none: the optimiser's own
   std::optional<SourceSpec> reference;  ///< what vertical-error is measured against: a DEM, or points
 
-  /// Whether triangulations of faces are chosen, not diagonals of quadrilaterals: at orders above 1, and at
-  /// order 1 where quadrilaterals overlap and are not all that can change.
+  /// How few pits are found; none: exactly. Pre: local minima first, order at least 1.
+  std::optional<PitHeuristic> heuristic;
+
+  /// Whether triangulations of faces are chosen, not diagonals of quadrilaterals: at orders above 1; at order
+  /// 1 by heuristics, and where quadrilaterals overlap and are not all that can change.
   [[nodiscard]] bool by_faces() const {
     const bool overlap = definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad;
-    return order > (overlap ? 0U : 1U);
+    return order > (overlap || heuristic ? 0U : 1U);
   }
 };
 

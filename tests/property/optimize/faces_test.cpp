@@ -1,13 +1,7 @@
 // The optimiser of higher orders on small scenes against all their triangulations, valued by plain code.
-#include "support/plain_criteria.hpp"
+#include "support/face_scenes.hpp"
 
-#include <thalweg/optimize/optimize_faces.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
-
-#include <gtest/gtest.h>
-#include <support/oracle/law_testing.hpp>
-#include <support/oracle/triangulations.hpp>
-#include <support/scene_tin.hpp>
 
 #include <algorithm>
 #include <set>
@@ -17,86 +11,17 @@ namespace thalweg {
 namespace {
 
 using oracle::Oracle;
-using oracle::SceneOptions;
-
-constexpr SceneOptions kSmall{.fewest = 5, .most = 10, .constraints = 5};
-constexpr double kHorizontal = 2, kVertical = 0.5;
-constexpr test::Steps kTolerance =
-    64;  // steps: of a sum of some dozens of terms that plain code rounds otherwise
-
-/// Constraint edges become valleys.
-Tin with_heights(const Tin& ground, std::vector<Triangle> triangles, const std::vector<double>& heights) {
-  std::vector<ConstraintEdge> valleys = ground.constraint_edges();
-  for (ConstraintEdge& edge : valleys) edge.kind = edge.kind | EdgeKind::Valley;
-  return {{ground.points().begin(), ground.points().end()}, heights, std::move(triangles), valleys};
-}
-
-std::vector<test::Steps> value_of(const Tin& tin, const std::vector<Criterion>& criteria) {
-  const test::PlainCriteria plain(tin, kHorizontal, kVertical);
-  std::vector<test::Steps> value;
-  for (const Criterion criterion : criteria)
-    value.push_back(plain.value(std::string(traits_of(criterion).name)));
-  return value;
-}
-
-/// Less at the first level at which they differ by more than rounding.
-bool better(const std::vector<test::Steps>& a, const std::vector<test::Steps>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (std::abs(a[i] - b[i]) > kTolerance) return a[i] < b[i];
-  }
-  return false;
-}
-
-struct Terrain {
-  Tin tin;                              ///< the Delaunay triangulation, with heights
-  std::vector<Tin> triangulations;      ///< all of the order
-  std::vector<test::Steps> order_sums;  ///< of each
-  FixedFaces faces;
-};
-
-std::optional<Terrain> terrain_of(const Oracle& oracle, const oracle::Enumeration& all,
-                                  OrderDefinition definition, int k, const std::vector<double>& heights) {
-  const Tin ground = test::ground_of(oracle.scene());
-  Progress progress;
-  const ConstrainedOrder order(ground, test::mode_of(oracle.scene()));
-  auto faces = find_fixed_faces(
-      ground,
-      find_order_triangles(order, {.definition = definition, .max_order = static_cast<std::size_t>(k)},
-                           progress),
-      {}, progress);
-  if (!faces) return std::nullopt;
-  Terrain terrain{with_heights(ground, {ground.triangles().begin(), ground.triangles().end()}, heights),
-                  {},
-                  {},
-                  std::move(*faces)};
-  for (const std::size_t i : all.of_order(static_cast<oracle::Definition>(definition), k)) {
-    std::vector<Triangle> triangles;
-    test::Steps order_sum = 0;
-    for (const int t : all.members[i]) {
-      triangles.push_back(test::triangle(all.triangles[static_cast<std::size_t>(t)]));
-      order_sum += all.orders[static_cast<std::size_t>(t)][static_cast<std::size_t>(definition)];
-    }
-    terrain.order_sums.push_back(order_sum);
-    terrain.triangulations.push_back(with_heights(ground, std::move(triangles), heights));
-  }
-  return terrain;
-}
-
-Tin tin_of(const Terrain& terrain, const FaceOptimizeResult& result) {
-  std::vector<Triangle> triangles;
-  for (const OrderTriangle& t : result.triangles) triangles.push_back(t.corners);
-  return with_heights(terrain.tin, std::move(triangles),
-                      {terrain.tin.heights().begin(), terrain.tin.heights().end()});
-}
-
-void expect_line(const CriterionResult& line, test::Steps delaunay, test::Steps result) {
-  const double sign = line.direction == "max" ? -1 : 1;
-  constexpr double kNear = static_cast<double>(kTolerance) / 0x1p32;
-  EXPECT_NEAR(line.delaunay, sign * static_cast<double>(delaunay) / 0x1p32, kNear) << line.name;
-  EXPECT_NEAR(line.result, sign * static_cast<double>(result) / 0x1p32, kNear) << line.name;
-  EXPECT_EQ(line.bound, line.result) << line.name;
-  EXPECT_TRUE(line.optimal) << line.name;
-}
+using test::better;
+using test::expect_line;
+using test::kHorizontal;
+using test::kSmallFaces;
+using test::kTolerance;
+using test::kVertical;
+using test::Steps;
+using test::Terrain;
+using test::terrain_of;
+using test::tin_of;
+using test::value_of;
 
 void check(const Terrain& terrain, const std::vector<Criterion>& criteria) {
   Progress progress;
@@ -128,9 +53,9 @@ void check_least_orders(const Terrain& terrain) {
                       .order_sum_after = 1},
                      progress);
   const Tin tin = tin_of(terrain, result);
-  test::Steps order_sum = 0;
+  Steps order_sum = 0;
   for (const OrderTriangle& t : result.triangles) order_sum += t.order;
-  const auto with_orders = [&](const Tin& of, test::Steps sum) {
+  const auto with_orders = [&](const Tin& of, Steps sum) {
     auto value = value_of(of, {Criterion::LocalMinima, Criterion::NormalAngleSum});
     value.insert(value.begin() + 1, sum << 32U);
     return value;
@@ -187,7 +112,7 @@ const std::vector<std::vector<Criterion>> kPriorities = {
 TEST(OptimizeFaces, IsTheBestOfAll) {
   int number = 0;
   std::size_t partial_faces = 0;
-  for_each_scene(oracle::kStreams, 60, kSmall, [&](const Oracle& oracle) {
+  for_each_scene(oracle::kStreams, 60, kSmallFaces, [&](const Oracle& oracle) {
     oracle::Dice dice("optimize-faces-" + std::to_string(number++));
     const int levels = dice.between(2, 7);
     std::vector<double> heights;
@@ -242,7 +167,7 @@ std::optional<Terrain> flips_of(Terrain&& all, OrderDefinition definition, Groun
 TEST(OptimizeFaces, IsTheBestOfFlipsThatOverlap) {
   int number = 0;
   std::size_t fewer = 0;
-  for_each_scene(oracle::kStreams, 30, kSmall, [&](const Oracle& oracle) {
+  for_each_scene(oracle::kStreams, 30, kSmallFaces, [&](const Oracle& oracle) {
     oracle::Dice dice("optimize-flips-" + std::to_string(number++));
     std::vector<double> heights;
     for (int v = 0; v < oracle.scene().size(); ++v) heights.push_back(dice.between(0, 4));

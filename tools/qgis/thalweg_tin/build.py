@@ -13,6 +13,7 @@ DEFINITIONS = ["sees-opp", "std", "pathcon", "sees-triang", "sees-vtx", "conf-ed
 CROSSINGS = ["auto", "error", "lower", "higher", "mean", "first", "last"]
 DUPLICATES = ["first", "last", "lowest", "highest", "mean"]
 NODATA = ["bridge-holes", "bridge-all", "bridge-none"]
+METHODS = ["exact", "flip", "hull"]
 
 
 class BuildTin(ThalwegAlgorithm):
@@ -57,6 +58,8 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
         self.advanced(QgsProcessingParameterString("OPTIMIZE", "Criteria, in order of priority (none: Delaunay)",
                                                    defaultValue="local-minima,normal-angle-sum"))
         self.advanced(QgsProcessingParameterEnum("DEFINITION", "Which constrained order", DEFINITIONS, defaultValue=0))
+        self.advanced(QgsProcessingParameterEnum("METHOD", "How fewest pits are found: exactly, or by a published heuristic",
+                                                 METHODS, defaultValue=0))
         self.advanced(QgsProcessingParameterEnum("CROSSING", "Height where lines cross", CROSSINGS, defaultValue=0))
         self.advanced(QgsProcessingParameterEnum("DUPLICATES", "Height of points at one place", DUPLICATES,
                                                  defaultValue=0))
@@ -92,7 +95,8 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
             if value:
                 arguments += [option, value]
         for name, option, words in (("DEFINITION", "--definition", DEFINITIONS), ("CROSSING", "--crossing", CROSSINGS),
-                                    ("DUPLICATES", "--duplicates", DUPLICATES), ("NODATA", "--nodata", NODATA)):
+                                    ("DUPLICATES", "--duplicates", DUPLICATES), ("NODATA", "--nodata", NODATA),
+                                    ("METHOD", "--method", METHODS)):
             arguments += [option, words[self.parameterAsEnum(parameters, name, context)]]
         arguments += ["--order", str(self.parameterAsInt(parameters, "ORDER", context))]
         for name, option in (("SNAP", "--snap"), ("MAX_EDGE", "--max-edge")):

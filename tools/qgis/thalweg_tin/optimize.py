@@ -4,7 +4,7 @@ from qgis.core import (QgsProcessingParameterFileDestination, QgsProcessingParam
                        QgsProcessingParameterEnum, QgsProcessingParameterNumber, QgsProcessingParameterString)
 
 from .algorithm import MESHES, ThalwegAlgorithm
-from .build import DEFINITIONS
+from .build import DEFINITIONS, METHODS
 from .program import run
 
 
@@ -25,6 +25,8 @@ first-order alternatives. The mesh has to be a file that Thalweg reads: PLY, UGR
         self.advanced(QgsProcessingParameterString("OPTIMIZE", "Criteria, in order of priority (none: Delaunay)",
                                                    defaultValue="local-minima,normal-angle-sum"))
         self.advanced(QgsProcessingParameterEnum("DEFINITION", "Which constrained order", DEFINITIONS, defaultValue=0))
+        self.advanced(QgsProcessingParameterEnum("METHOD", "How fewest pits are found: exactly, or by a published heuristic",
+                                                 METHODS, defaultValue=0))
         self.addParameter(QgsProcessingParameterFileDestination("OUTPUT", "Optimised TIN", MESHES))
         self.add_report()
 
@@ -33,6 +35,7 @@ first-order alternatives. The mesh has to be a file that Thalweg reads: PLY, UGR
         arguments = ["optimize", self.mesh_path(parameters, "INPUT", context), output, "--overwrite", "--progress",
                      "--order", str(self.parameterAsInt(parameters, "ORDER", context)),
                      "--definition", DEFINITIONS[self.parameterAsEnum(parameters, "DEFINITION", context)],
+                     "--method", METHODS[self.parameterAsEnum(parameters, "METHOD", context)],
                      "--optimize", self.parameterAsString(parameters, "OPTIMIZE", context)]
         results = {"OUTPUT": output}
         arguments += self.report_arguments(parameters, context, results)
