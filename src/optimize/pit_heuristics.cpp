@@ -205,6 +205,7 @@ class Hulls {
              std::tie(std::get<0>(q), std::get<1>(q), std::get<2>(q));
     });
     std::vector<GreedyPatch> sorted;
+    sorted.reserve(found.size());
     for (auto& entry : found) sorted.push_back(std::move(std::get<3>(entry)));
     return sorted;
   }
