@@ -21,8 +21,8 @@ struct ValleyLines {
 /// where that saves more than half of what the line takes; there two lines were drawn towards each other.
 /// Lines between whose ends there is another way run from the higher end to the lower one. Left out: closed
 /// lines, and such lines with level ends. No vertex comes after itself along lines. Other heights, on which
-/// none of the lines rises, give no line that rises, but where ends were level. Complexity: n log n in vertices
-/// of lines.
+/// none of the lines rises, give no line that rises, but where ends were level. Complexity: n log n in
+/// vertices of lines.
 ValleyLines trace_valleys(const Tin& tin);
 
 }  // namespace thalweg
