@@ -180,8 +180,12 @@ TEST(HigherOrderTies, PointsOnACircle) {
       ASSERT_TRUE(faces);
       const Polygon polygon = solve(ring, k, 0, count - 1);
       EXPECT_EQ(count_triangulations(*faces), polygon.count);
-      if (k == 0) EXPECT_EQ(polygon.count, 1);
-      if (k + 3 == count) EXPECT_EQ(polygon.count, all);
+      if (k == 0) {
+        EXPECT_EQ(polygon.count, 1);
+      }
+      if (k + 3 == count) {
+        EXPECT_EQ(polygon.count, all);
+      }
       const FaceOptimizeResult shortest =
           optimize_faces(tin, *faces, {.common = {.criteria = {Criterion::EdgeLength}}}, progress);
       EXPECT_NEAR(shortest.criteria[0].result, polygon.length, 1e-7);
