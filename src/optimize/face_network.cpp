@@ -1,6 +1,6 @@
 // Faces, pairs, outlets.
 //
-// 1. Each face's labels and their costs: face_terms.cpp. Two faces are coupled at each fixed edge between
+// 1. Each face's labels and their costs: face_program.cpp. Two faces are coupled at each fixed edge between
 //    them, by the term of the two triangles there.
 // 2. Pits. A node is no pit if it can be followed along links to node 0: each node names one link, of a face,
 //    as its outlet; a variable says which. If the face's label does not have the link, that costs a pit. So
@@ -9,8 +9,6 @@
 //    pit; and for each larger set that turned out to be closed, a variable names one of its nodes, which
 //    costs a pit if its outlet stays in the set. Without all such sets the sum is a bound.
 #include "optimize/face_network.hpp"
-
-#include "base/parallel.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -24,9 +22,6 @@ namespace thalweg {
 
 namespace {
 
-constexpr std::size_t kFaces = 64;
-constexpr std::size_t kSides = 4096;
-
 /// A link as an outlet of one of its nodes.
 struct Outlet {
   std::uint32_t node = 0;
@@ -39,50 +34,25 @@ struct Outlet {
 template <std::size_t Criteria>
 class Builder {
  public:
-  Builder(const FaceTerms<Criteria>& terms, const ListedFaces& listed, Purpose purpose,
-          const Progress& progress)
-      : terms_(terms), listed_(listed), purpose_(purpose), progress_(progress) {}
+  Builder(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
+          const std::vector<FaceLabels<Criteria>>& faces)
+      : terms_(terms), sides_(sides), faces_(faces) {}
 
-  FaceNetwork<Criteria> run(PlateauNodes* pits, std::size_t pit_level, std::span<const PlateauSet> closed) {
-    label_faces(pits);
-    couple_faces();
-    if (pits != nullptr) {
-      pit_level_ = pit_level;
-      count_pits(*pits, closed);
+  FaceNetwork<Criteria> run(PlateauNodes* pits, std::span<const PlateauSet> closed) {
+    LabelNetwork<Criteria>& network = out_.network;
+    for (const FaceLabels<Criteria>& labels : faces_) {
+      network.unary.insert(network.unary.end(), labels.unary.begin(), labels.unary.end());
+      network.first_label.push_back(static_cast<std::uint32_t>(network.unary.size()));
     }
+    network.pairs.reserve(sides_.edges.size());
+    network.weights.reserve(sides_.weights.size());
+    for (std::size_t i = 0; i < sides_.edges.size(); ++i) couple_faces(i);
+    if (pits != nullptr) count_pits(*pits, closed);
     refuse_overflow();
     return std::move(out_);
   }
 
  private:
-  void label_faces(PlateauNodes* pits) {
-    std::vector<PlateauLink> links;
-    if (pits != nullptr) {
-      for (std::uint32_t e = 0; e < terms_.faces.edges.size(); ++e) links.push_back(pits->link_of(e));
-    }
-    out_.faces.resize(listed_.lists.size());
-    for_each_block(out_.faces.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) {
-        const FaceTriangulations& list = listed_.lists[f];
-        out_.faces[f] =
-            relaxed(f) ? relax_face(terms_, links, f, list.size) : label_face(terms_, links, f, list);
-      }
-    });
-    LabelNetwork<Criteria>& network = out_.network;
-    for (const FaceLabels<Criteria>& labels : out_.faces) {
-      network.unary.insert(network.unary.end(), labels.unary.begin(), labels.unary.end());
-      network.first_label.push_back(static_cast<std::uint32_t>(network.unary.size()));
-    }
-  }
-
-  [[nodiscard]] bool relaxed(std::size_t face) const {
-    return purpose_ == Purpose::Bound && listed_.partial[face] != 0;
-  }
-  /// Classes of a face at one of its sides.
-  [[nodiscard]] std::size_t classes_at(std::uint32_t face, std::uint32_t side) const {
-    return terms_.sides.triangles.row(side).size() + (relaxed(face) ? 1 : 0);
-  }
-
   std::size_t add_classes(std::span<const std::uint16_t> classes) {
     const std::size_t first = out_.network.classes.size();
     out_.network.classes.insert(out_.network.classes.end(), classes.begin(), classes.end());
@@ -90,63 +60,51 @@ class Builder {
   }
 
   [[nodiscard]] std::span<const std::uint16_t> column(std::uint32_t face, std::uint32_t side) const {
-    const FaceLabels<Criteria>& labels = out_.faces[face];
+    const FaceLabels<Criteria>& labels = faces_[face];
     const auto at = std::lower_bound(labels.side.begin(), labels.side.end(), side);
     return labels.at_side[static_cast<std::size_t>(at - labels.side.begin())];
   }
 
-  void couple_faces() {
+  // At an edge between two faces; a relaxed face has one class more there, the least of all.
+  void couple_faces(std::size_t i) {
     LabelNetwork<Criteria>& network = out_.network;
-    std::vector<std::uint32_t> between;  // edges
-    for (std::uint32_t e = 0; e < terms_.faces.edges.size(); ++e) {
-      const std::uint32_t left = terms_.sides.owner[2 * e], right = terms_.sides.owner[2 * e + 1];
-      if (left == right || left == FaceSides::kNoFace || right == FaceSides::kNoFace) continue;
-      PairTerm pair{.a = left, .b = right};
-      pair.class_a = add_classes(column(left, 2 * e));
-      pair.class_b = add_classes(column(right, 2 * e + 1));
-      pair.classes_a = static_cast<std::uint16_t>(classes_at(left, 2 * e));
-      pair.classes_b = static_cast<std::uint16_t>(classes_at(right, 2 * e + 1));
-      pair.weight = network.weights.size();
-      network.weights.resize(network.weights.size() + std::size_t{pair.classes_a} * pair.classes_b);
-      network.pairs.push_back(pair);
-      between.push_back(e);
-    }
-    for_each_block(between.size(), kSides, progress_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) weigh(between[i], network.pairs[i]);
-    });
-  }
-
-  void weigh(std::uint32_t e, const PairTerm& pair) {
-    std::vector<Face> right;
-    for (const std::uint32_t t : terms_.sides.triangles.row(2 * e + 1)) {
-      right.push_back(face_of(terms_.tin, terms_.faces, t, terms_.scale));
-    }
-    const auto of_left = terms_.sides.triangles.row(2 * e);
-    const auto weight = [&](std::size_t p, std::size_t q) -> Weight<Criteria>& {
-      return out_.network.weights[pair.weight + p * pair.classes_b + q];
-    };
+    const std::uint32_t e = sides_.edges[i];
+    PairTerm pair{.a = terms_.sides.owner[2 * e], .b = terms_.sides.owner[2 * e + 1]};
+    const std::size_t of_left = terms_.sides.triangles.row(2 * e).size();
+    const std::size_t of_right = terms_.sides.triangles.row(2 * e + 1).size();
+    pair.class_a = add_classes(column(pair.a, 2 * e));
+    pair.class_b = add_classes(column(pair.b, 2 * e + 1));
+    pair.classes_a = static_cast<std::uint16_t>(of_left + (faces_[pair.a].relaxed ? 1 : 0));
+    pair.classes_b = static_cast<std::uint16_t>(of_right + (faces_[pair.b].relaxed ? 1 : 0));
+    pair.weight = network.weights.size();
     const auto lower = [](Weight<Criteria>& least, const Weight<Criteria>& other, bool first) {
       for (std::size_t level = 0; level < Criteria; ++level) {
         least[level] = first ? other[level] : std::min(least[level], other[level]);
       }
     };
-    for (std::size_t p = 0; p < of_left.size(); ++p) {
-      const Face left = face_of(terms_.tin, terms_.faces, of_left[p], terms_.scale);
-      for (std::size_t q = 0; q < right.size(); ++q) weight(p, q) = terms_.of(left, right[q]);
-      if (pair.classes_b == right.size()) continue;
-      for (std::size_t q = 0; q < right.size(); ++q) lower(weight(p, right.size()), weight(p, q), q == 0);
+    for (std::size_t p = 0; p < of_left; ++p) {
+      const auto first = sides_.weights.begin() + static_cast<std::ptrdiff_t>(sides_.first[i] + p * of_right);
+      network.weights.insert(network.weights.end(), first, first + static_cast<std::ptrdiff_t>(of_right));
+      if (pair.classes_b == of_right) continue;
+      Weight<Criteria> least{};
+      for (std::size_t q = 0; q < of_right; ++q) lower(least, first[static_cast<std::ptrdiff_t>(q)], q == 0);
+      network.weights.push_back(least);
     }
-    if (pair.classes_a == of_left.size()) return;
-    for (std::size_t q = 0; q < pair.classes_b; ++q) {
-      for (std::size_t p = 0; p < of_left.size(); ++p) lower(weight(of_left.size(), q), weight(p, q), p == 0);
+    for (std::size_t q = 0; q < pair.classes_b && pair.classes_a > of_left; ++q) {
+      Weight<Criteria> least{};
+      for (std::size_t p = 0; p < of_left; ++p) {
+        lower(least, network.weights[pair.weight + p * pair.classes_b + q], p == 0);
+      }
+      network.weights.push_back(least);
     }
+    network.pairs.push_back(pair);
   }
 
   // Outlets of each node, and a variable for each node that has any.
   void count_pits(PlateauNodes& pits, std::span<const PlateauSet> closed) {
-    for (std::uint32_t f = 0; f < out_.faces.size(); ++f) {
-      for (std::uint32_t l = 0; l < out_.faces[f].link.size(); ++l) {
-        const auto& [a, b] = out_.faces[f].link[l];
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+      for (std::uint32_t l = 0; l < faces_[f].link.size(); ++l) {
+        const auto& [a, b] = faces_[f].link[l];
         outlets_.push_back({a, b, f, l});
         if (b != 0) outlets_.push_back({b, a, f, l});
       }
@@ -187,7 +145,7 @@ class Builder {
     const bool level = std::any_of(list.begin(), list.end(), [](const Outlet& o) { return o.target != 0; });
     const std::size_t labels = list.size() + (level ? 1 : 0);
     variable_[node] = add_variable(labels);
-    if (level) out_.network.unary.back().level[pit_level_] = 1;
+    if (level) out_.network.unary.back().level[*terms_.pit_level] = 1;
     for (std::size_t begin = 0; begin < list.size();) {
       std::size_t end = begin;
       while (end < list.size() && list[end].face == list[begin].face) ++end;
@@ -200,7 +158,7 @@ class Builder {
   void couple_outlets(std::uint32_t variable, std::size_t labels, std::span<const Outlet> list,
                       std::size_t begin, std::size_t end) {
     LabelNetwork<Criteria>& network = out_.network;
-    const FaceLabels<Criteria>& face = out_.faces[list[begin].face];
+    const FaceLabels<Criteria>& face = faces_[list[begin].face];
     std::vector<std::uint16_t> named(labels, 0), joined;
     for (std::size_t i = begin; i < end; ++i) named[i] = static_cast<std::uint16_t>(i - begin + 1);
     std::map<std::vector<std::uint8_t>, std::uint16_t> patterns;
@@ -222,7 +180,7 @@ class Builder {
     for (std::size_t i = 0; i < end - begin; ++i) {
       for (const auto& joins : pattern) {
         network.weights.emplace_back();
-        network.weights.back()[pit_level_] = joins[i] != 0 ? 0 : 1;
+        network.weights.back()[*terms_.pit_level] = joins[i] != 0 ? 0 : 1;
       }
     }
     network.pairs.push_back(pair);
@@ -245,7 +203,7 @@ class Builder {
     pair.class_b = add_classes(class_b);
     pair.weight = network.weights.size();
     network.weights.resize(network.weights.size() + 4);
-    network.weights.back()[pit_level_] = 1;
+    network.weights.back()[*terms_.pit_level] = 1;
     network.pairs.push_back(pair);
   }
 
@@ -292,64 +250,83 @@ class Builder {
   static constexpr std::uint32_t kNoVariable = 0xffffffffU;
 
   const FaceTerms<Criteria>& terms_;
-  const ListedFaces& listed_;
-  Purpose purpose_;
-  const Progress& progress_;
-  std::size_t pit_level_ = 0;
+  const SideWeights<Criteria>& sides_;
+  const std::vector<FaceLabels<Criteria>>& faces_;
   FaceNetwork<Criteria> out_;
   std::vector<Outlet> outlets_;            ///< by node and face
   std::vector<std::size_t> first_outlet_;  ///< by node
   std::vector<std::uint32_t> variable_;    ///< by node
 };
 
+/// What every triangulation of a face joins.
+std::vector<PlateauLink> links_of_all(const FixedFaces& faces, std::size_t face, const FrontGraph& graph,
+                                      PlateauNodes& pits) {
+  const std::span<const std::uint32_t> triangles = faces.faces.row(face);
+  std::vector<PlateauLink> links;
+  for (const std::uint32_t t : triangles) {
+    for (const std::uint32_t side : faces.sides[t]) {
+      const PlateauLink link = pits.link_of(side / 2);
+      if (link.first != link.second) links.push_back(link);
+    }
+  }
+  if (links.empty()) return links;
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  std::vector<std::vector<bool>> joined(triangles.size(), std::vector<bool>(links.size(), false));
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (const std::uint32_t side : faces.sides[triangles[i]]) {
+      const auto at = std::lower_bound(links.begin(), links.end(), pits.link_of(side / 2));
+      if (at != links.end() && *at == pits.link_of(side / 2)) joined[i][at - links.begin()] = true;
+    }
+  }
+  // By front: what all ways on join; empty where there is none.
+  std::vector<std::vector<bool>> behind(graph.front_count);
+  behind[*graph.empty_front].assign(links.size(), false);
+  std::for_each(graph.arcs.rbegin(), graph.arcs.rend(), [&](const FrontGraph::Arc& arc) {
+    if (behind[arc.to].empty()) return;
+    const bool first = behind[arc.from].empty();
+    if (first) behind[arc.from].assign(links.size(), true);
+    for (std::size_t l = 0; l < links.size(); ++l) {
+      if (!behind[arc.to][l] && !joined[arc.triangle][l]) behind[arc.from][l] = false;
+    }
+  });
+  std::size_t next = 0;
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    if (behind[0][l]) links[next++] = links[l];
+  }
+  links.resize(next);
+  return links;
+}
+
 }  // namespace
 
 template <std::size_t Criteria>
-FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const ListedFaces& listed,
-                                    Purpose purpose, PlateauNodes* pits, std::size_t pit_level,
-                                    std::span<const PlateauSet> closed, const Progress& progress) {
-  return Builder<Criteria>(terms, listed, purpose, progress).run(pits, pit_level, closed);
+FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
+                                    const std::vector<FaceLabels<Criteria>>& faces, PlateauNodes* pits,
+                                    std::span<const PlateauSet> closed) {
+  return Builder<Criteria>(terms, sides, faces).run(pits, closed);
 }
 
-void join_always(const FixedFaces& faces, const ListedFaces& listed, PlateauNodes& pits) {
-  std::vector<PlateauLink> here;
+void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits) {
   for (bool again = true; again;) {
     again = false;
-    for (std::size_t f = 0; f < listed.lists.size(); ++f) {
-      if (listed.partial[f] != 0) continue;
-      const FaceTriangulations& list = listed.lists[f];
-      std::map<PlateauLink, std::size_t> times;
-      for (std::size_t i = 0; i < list.count(); ++i) {
-        here.clear();
-        for (const std::uint32_t t : list[i]) {
-          for (const std::uint32_t side : faces.sides[t]) {
-            const PlateauLink link = pits.link_of(side / 2);
-            if (link.first != link.second) here.push_back(link);
-          }
-        }
-        std::sort(here.begin(), here.end());
-        here.erase(std::unique(here.begin(), here.end()), here.end());
-        if (i == 0) {
-          for (const PlateauLink& link : here) times[link] = 1;
-          if (times.empty()) break;
-        } else {
-          for (const PlateauLink& link : here) {
-            if (const auto at = times.find(link); at != times.end()) ++at->second;
-          }
-        }
-      }
-      for (const auto& [link, count] : times) {
-        if (count == list.count()) again = pits.sets.unite(link.first, link.second) || again;
+    for (std::size_t f = 0; f < searched.size(); ++f) {
+      if (!searched[f].whole) continue;
+      for (const PlateauLink& link : links_of_all(faces, f, searched[f].graph, pits)) {
+        again = pits.sets.unite(link.first, link.second) || again;
       }
     }
   }
 }
 
-template FaceNetwork<1> build_network(const FaceTerms<1>&, const ListedFaces&, Purpose, PlateauNodes*,
-                                      std::size_t, std::span<const PlateauSet>, const Progress&);
-template FaceNetwork<2> build_network(const FaceTerms<2>&, const ListedFaces&, Purpose, PlateauNodes*,
-                                      std::size_t, std::span<const PlateauSet>, const Progress&);
-template FaceNetwork<5> build_network(const FaceTerms<5>&, const ListedFaces&, Purpose, PlateauNodes*,
-                                      std::size_t, std::span<const PlateauSet>, const Progress&);
+template FaceNetwork<1> build_network(const FaceTerms<1>&, const SideWeights<1>&,
+                                      const std::vector<FaceLabels<1>>&, PlateauNodes*,
+                                      std::span<const PlateauSet>);
+template FaceNetwork<2> build_network(const FaceTerms<2>&, const SideWeights<2>&,
+                                      const std::vector<FaceLabels<2>>&, PlateauNodes*,
+                                      std::span<const PlateauSet>);
+template FaceNetwork<5> build_network(const FaceTerms<5>&, const SideWeights<5>&,
+                                      const std::vector<FaceLabels<5>>&, PlateauNodes*,
+                                      std::span<const PlateauSet>);
 
 }  // namespace thalweg

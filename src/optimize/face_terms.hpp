@@ -1,10 +1,9 @@
 #pragma once
 
-/// Terms of criteria over candidate triangles, and what one face contributes to costs.
+/// Terms of criteria over candidate triangles.
 
 #include "optimize/cost.hpp"
 #include "optimize/declaration.hpp"
-#include "optimize/face_pits.hpp"
 
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/optimize/criterion.hpp>
@@ -68,6 +67,7 @@ struct FaceTerms {
   Scale scale;
   std::array<TermLevel, Criteria> levels;
   std::optional<std::size_t> order_level;  ///< where triangles cost their order
+  std::optional<std::size_t> pit_level;    ///< where pits are counted
 
   [[nodiscard]] Weight<Criteria> of(const Face& triangle) const {
     Weight<Criteria> weight{};
@@ -80,32 +80,5 @@ struct FaceTerms {
     return weight;
   }
 };
-
-/// The labels of one face: triangulations that differ in what others see of them; of those that do not, the
-/// one of least cost.
-template <std::size_t Criteria>
-struct FaceLabels {
-  std::vector<std::uint32_t> triangulation;  ///< by label
-  std::vector<Cost<Criteria>> unary;         ///< by label
-  std::vector<std::uint32_t> side;           ///< sides beyond which there is another face, ascending
-  /// For each of these, for each label: which of the side's candidates it has.
-  std::vector<std::vector<std::uint16_t>> at_side;
-  std::vector<PlateauLink> link;                 ///< what some but not all labels join, ascending
-  std::vector<std::vector<std::uint8_t>> joins;  ///< for each of these, by label: 1 if it does
-};
-
-/// One label in the place of all triangulations of a face: it costs no more than any of them under any labels
-/// of the neighbours. At each side it has a class of its own, after the candidates (LabelNetwork couples it
-/// at the least cost), and it joins what any candidate edge of the face joins. Complexity: pairs of
-/// candidates at the face's edges, and its fronts or pairs of edges that cross.
-template <std::size_t Criteria>
-FaceLabels<Criteria> relax_face(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links,
-                                std::size_t face, std::uint32_t size);
-
-/// `links`: by candidate edge, as PlateauNodes::link_of; empty if pits are not counted.
-/// Complexity: triangles of all triangulations.
-template <std::size_t Criteria>
-FaceLabels<Criteria> label_face(const FaceTerms<Criteria>& terms, std::span<const PlateauLink> links,
-                                std::size_t face, const FaceTriangulations& list);
 
 }  // namespace thalweg

@@ -1,14 +1,14 @@
 // From faces to a network, and back.
 //
-// 1. The triangulations of each face are listed: its labels. A face with too many has as labels those of a
-//    smaller order; then a second network, in which one label stands for all that the face has, gives the
-//    bound.
+// 1. The fronts of each face are found, and by them its labels: the triangulations that may be best for
+//    something that is chosen in other faces (face_program.cpp). A face with too many fronts or labels has as
+//    labels some of those; then a second network, in which one label stands for all that the face has, gives
+//    the bound.
 // 2. Each criterion is a level of costs, local minima included (face_network.cpp). The network is solved
 //    (label_solver.cpp).
 // 3. Pits: if the choice leaves more than its costs tell, there are sets of plateaus whose outlets lead to
-// each
-//    other. Each of these is to have an outlet or to count, and the network is solved again. What is left
-//    then is a bound.
+//    each other. Each of these is to have an outlet or to count, and the network is solved again. What is
+//    left then is a bound.
 // 4. An objective that is the worst of its terms: as in optimize_first_order.cpp, by bisection over limits.
 #include "base/parallel.hpp"
 #include "optimize/face_network.hpp"
@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,6 +31,11 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kFaces = 64;
+/// Faces that need more than this share of the comparisons are looked at once more, when what their
+/// neighbours may have is known: of 37,830 faces of random points at order 4 these are 11.
+constexpr std::size_t kFirstShare = 100;
+/// Of all of these together.
+constexpr std::size_t kMostComparisons = 2'000'000'000;
 constexpr int kRounds = 30;
 /// A larger set of plateaus is not asked to have an outlet; what it hides stays a gap.
 constexpr std::size_t kLargestSet = 200;
@@ -54,15 +60,16 @@ class FaceRun {
         scale_{options.common.horizontal_metres_per_unit, options.common.vertical_metres_per_unit},
         reference_(options.common.reference),
         limits_{options.common.width_limit, options.common.effort},
-        progress_(progress) {
-    progress_.start_phase("list triangulations");
-    list(options.most_triangulations);
+        progress_(progress),
+        label_limits_{options.most_comparisons, options.few_labels} {
+    progress_.start_phase("search faces");
+    search_faces(options.work_limit);
     sides_ = find_sides(delaunay, faces, progress);
     for (std::size_t level = 0; level < levels_.size(); ++level) {
       if (!counts_pits(level)) continue;
       pit_level_ = level;
       pits_ = find_plateau_nodes(delaunay, faces);
-      join_always(faces, listed_, *pits_);
+      join_always(faces, searched_, *pits_);
     }
     progress_.advance(1);
   }
@@ -82,7 +89,7 @@ class FaceRun {
     std::vector<std::uint32_t> triangles;  ///< candidates, ascending
     Cost<Criteria> value, bound;
     SolverFigures figures;
-    std::size_t labels = 0, most_labels = 0;
+    std::size_t labels = 0, most_labels = 0, partial_faces = 0, largest_face = 0;
   };
   /// An extreme, in steps as in sums.hpp.
   struct Settled {
@@ -96,59 +103,47 @@ class FaceRun {
     return levels_[level] && levels_[level]->is(Criterion::LocalMinima);
   }
 
-  /// All triangulations of each face; where there are too many, those of the largest order that has not.
-  void list(std::size_t most) {
-    listed_.lists.resize(faces_.faces.size());
-    listed_.partial.assign(faces_.faces.size(), 0);
+  /// The fronts of each face; where there are too many, those of the largest order that has not.
+  void search_faces(std::size_t work_limit) {
+    searched_.resize(faces_.faces.size());
     for_each_block(faces_.faces.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
-        auto found = list_triangulations(faces_, f, {.most = most});
-        std::uint32_t order = 0;
-        for (const std::uint32_t t : faces_.faces.row(f)) order = std::max(order, faces_.triangles[t].order);
-        while (!found && order > 0) {
-          found = list_triangulations(faces_, f, {.most = most, .max_order = --order});
-          if (found && found->count() == 0) found.reset();
-          listed_.partial[f] = 1;
-        }
-        if (!found) found = delaunay_only(f);
-        if (!found) refuse_face(f, most);
-        listed_.lists[f] = std::move(*found);
+        auto graph = find_fronts(faces_, f, {.work_limit = work_limit});
+        searched_[f].whole = graph.has_value();
+        if (!graph) graph = search_part(f, work_limit);
+        if (!graph) refuse_face(f);
+        searched_[f].graph = std::move(*graph);
       }
     });
   }
 
-  [[nodiscard]] bool is_candidate(Triangle corners) const {
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    const auto at = std::lower_bound(faces_.triangles.begin(), faces_.triangles.end(), corners,
-                                     [](const OrderTriangle& t, const Triangle& c) { return t.corners < c; });
-    return at != faces_.triangles.end() && at->corners == corners;
-  }
-
-  /// The Delaunay triangulation of a face; none if not all its triangles are candidates: then one of them
-  /// meets one that is.
-  [[nodiscard]] std::optional<FaceTriangulations> delaunay_only(std::size_t f) const {
-    FaceTriangulations list;
-    for (const std::uint32_t t : faces_.faces.row(f)) {
-      const auto& [a, b, c] = faces_.triangles[t].corners;
-      const HalfedgeId ab = delaunay_.find_halfedge(a, b);
-      if (!ab.valid() || delaunay_.apex(ab) != c) continue;
-      list.triangles.push_back(t);
-      for (const HalfedgeId side : {ab, Tin::next(ab), Tin::previous(ab)}) {
-        const HalfedgeId twin = delaunay_.twin(side);
-        if (twin.valid() && !is_candidate(delaunay_.triangle(Tin::triangle_of(twin)))) return std::nullopt;
-      }
+  [[nodiscard]] std::optional<FrontGraph> search_part(std::size_t f, std::size_t work_limit) const {
+    const auto triangles = faces_.faces.row(f);
+    const auto search = [&](const auto& uses) {
+      std::vector<std::uint8_t> usable;
+      for (const std::uint32_t t : triangles) usable.push_back(uses(faces_.triangles[t]) ? 1 : 0);
+      auto graph = find_fronts(faces_, f, {.work_limit = work_limit, .usable = usable});
+      if (graph && !graph->empty_front) graph.reset();
+      return graph;
+    };
+    std::uint32_t order = 0;
+    for (const std::uint32_t t : triangles) order = std::max(order, faces_.triangles[t].order);
+    while (order > 0) {
+      --order;
+      if (auto graph = search([&](const OrderTriangle& t) { return t.order <= order; })) return graph;
     }
-    list.size = static_cast<std::uint32_t>(list.triangles.size());
-    return list.size == 0 ? std::nullopt : std::optional(std::move(list));
+    return search([&](const OrderTriangle& t) {
+      const HalfedgeId ab = delaunay_.find_halfedge(t.corners[0], t.corners[1]);
+      return ab.valid() && delaunay_.apex(ab) == t.corners[2];
+    });
   }
 
-  [[noreturn]] void refuse_face(std::size_t f, std::size_t most) const {
+  [[noreturn]] void refuse_face(std::size_t f) const {
     const Point2 at = delaunay_.point(faces_.triangles[faces_.faces.row(f)[0]].corners[0]);
     throw Error(ErrorCode::SizeLimit,
                 "the face between fixed edges at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
-                    ") has more than " + std::to_string(most) +
-                    " triangulations of that order, and none of a smaller one that could "
-                    "be listed; take a smaller --order");
+                    ") has too many triangulations of that order, and none of a smaller one that could be "
+                    "found; take a smaller --order");
   }
 
   /// Solves the levels before `count`; those from it on cost nothing.
@@ -162,22 +157,72 @@ class FaceRun {
       const auto limit = is_extreme(level) ? std::optional(settled_[level].limit) : std::nullopt;
       terms.levels[level] = level_of(*levels_[level], limit, reference_);
     }
-    PlateauNodes* const pits = pits_ && pit_level_ < count ? &*pits_ : nullptr;
-    Choice choice = solve_for(terms, Purpose::Choose, pits);
-    const bool partial =
-        std::find(listed_.partial.begin(), listed_.partial.end(), 1) != listed_.partial.end();
-    if (partial) choice.bound = solve_for(terms, Purpose::Bound, pits).bound;
+    if (pits_ && pit_level_ < count) terms.pit_level = pit_level_;
+    SideWeights<Criteria> sides = weigh_sides(terms, progress_);
+    std::vector<FaceLabels<Criteria>> labels = label_faces(terms, sides);
+    Choice choice = solve_for(terms, sides, labels);
+    if (choice.partial_faces > 0) {
+      relax_partial(terms, sides, labels);
+      choice.bound = solve_for(terms, sides, labels).bound;
+    }
     return choice;
   }
 
-  Choice solve_for(const FaceTerms<Criteria>& terms, Purpose purpose, PlateauNodes* pits) {
+  /// Plateau links of candidate edges if pits are counted.
+  std::vector<PlateauLink> links_for(const FaceTerms<Criteria>& terms) {
+    std::vector<PlateauLink> links;
+    if (!terms.pit_level) return links;
+    links.reserve(faces_.edges.size());
+    for (std::uint32_t e = 0; e < faces_.edges.size(); ++e) links.push_back(pits_->link_of(e));
+    return links;
+  }
+
+  /// All faces with few labels; then, knowing what these leave across, the others.
+  std::vector<FaceLabels<Criteria>> label_faces(const FaceTerms<Criteria>& terms,
+                                                SideWeights<Criteria>& sides) {
+    const std::vector<PlateauLink> links = links_for(terms);
+    std::vector<FaceLabels<Criteria>> labels(faces_.faces.size());
+    std::vector<std::uint32_t> turn(labels.size());
+    std::iota(turn.begin(), turn.end(), 0U);
+    const auto label = [&](std::size_t block, const LabelLimits& limits) {
+      for_each_block(turn.size(), block, progress_, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t f = turn[i];
+          labels[f] = label_face(model_face(terms, sides, links, f), searched_[f].graph, limits);
+          labels[f].complete = labels[f].complete && searched_[f].whole;
+        }
+      });
+      std::erase_if(turn, [&](std::uint32_t f) { return labels[f].complete || !searched_[f].whole; });
+    };
+    label(kFaces, {label_limits_.most_comparisons / kFirstShare, label_limits_.few_labels});
+    note_possible(sides_, labels, sides);
+    const std::size_t share = kMostComparisons / std::max<std::size_t>(turn.size(), 1);
+    label(1, {std::min(label_limits_.most_comparisons, share), label_limits_.few_labels});
+    return labels;
+  }
+
+  void relax_partial(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
+                     std::vector<FaceLabels<Criteria>>& labels) {
+    const std::vector<PlateauLink> links = links_for(terms);
+    for_each_block(labels.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        if (labels[f].complete) continue;
+        labels[f] = relax_face(model_face(terms, sides, links, f), labels[f].triangulations.size);
+      }
+    });
+  }
+
+  Choice solve_for(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
+                   const std::vector<FaceLabels<Criteria>>& labels) {
+    PlateauNodes* const pits = terms.pit_level ? &*pits_ : nullptr;
     std::vector<PlateauSet> closed;
     for (int round = 0;; ++round) {
-      const FaceNetwork<Criteria> network =
-          build_network(terms, listed_, purpose, pits, pit_level_, closed, progress_);
+      const FaceNetwork<Criteria> network = build_network(terms, sides, labels, pits, closed);
       const NetworkSolution<Criteria> solution = solve(network.network, limits_, progress_);
-      if (pits != nullptr && round < kRounds && find_closed(network, solution, closed)) continue;
-      Choice choice = choice_of(network, solution);
+      const std::int64_t counted = network.sure_pits + solution.value.level[pit_level_];
+      if (pits != nullptr && round < kRounds && find_closed(labels, solution.chosen, counted, closed))
+        continue;
+      Choice choice = choice_of(labels, solution);
       if (pits == nullptr) return choice;
       choice.value.level[pit_level_] += network.sure_pits;
       choice.bound.level[pit_level_] += network.sure_pits;
@@ -186,23 +231,21 @@ class FaceRun {
   }
 
   /// Adds the sets of plateaus that the choice joins to each other only, and that count as no pit; false if
-  /// there is none that is new.
-  bool find_closed(const FaceNetwork<Criteria>& network, const NetworkSolution<Criteria>& solution,
-                   std::vector<PlateauSet>& closed) {
+  /// there is none that is new. `counted`: the pits that its costs tell of.
+  bool find_closed(const std::vector<FaceLabels<Criteria>>& labels, const std::vector<std::uint32_t>& chosen,
+                   std::int64_t counted, std::vector<PlateauSet>& closed) {
     UnionFind joined(pits_->node_count);
-    for (std::size_t f = 0; f < network.faces.size(); ++f) {
-      const FaceLabels<Criteria>& face = network.faces[f];
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+      const FaceLabels<Criteria>& face = labels[f];
       for (std::size_t l = 0; l < face.link.size(); ++l) {
-        if (face.joins[l][solution.chosen[f]] != 0) joined.unite(face.link[l].first, face.link[l].second);
+        if (face.joins[l][chosen[f]] != 0) joined.unite(face.link[l].first, face.link[l].second);
       }
     }
     std::map<std::uint32_t, PlateauSet> sets;
     for (std::uint32_t n = 1; n < pits_->node_count; ++n) {
       if (pits_->sets.find(n) == n && joined.find(n) != 0) sets[joined.find(n)].push_back(n);
     }
-    if (static_cast<std::int64_t>(sets.size()) == network.sure_pits + solution.value.level[pit_level_]) {
-      return false;
-    }
+    if (static_cast<std::int64_t>(sets.size()) == counted) return false;
     bool found = false;
     for (auto& [first, set] : sets) {
       if (set.size() < 3 || set.size() > kLargestSet) continue;
@@ -213,8 +256,12 @@ class FaceRun {
     return found;
   }
 
-  Choice choice_of(const FaceNetwork<Criteria>& network, const NetworkSolution<Criteria>& solution) const {
-    Choice choice{{}, solution.value, solution.bound, solution.figures, 0, 0};
+  Choice choice_of(const std::vector<FaceLabels<Criteria>>& labels,
+                   const NetworkSolution<Criteria>& solution) const {
+    Choice choice;
+    choice.value = solution.value;
+    choice.bound = solution.bound;
+    choice.figures = solution.figures;
     for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
       const auto& sides = faces_.sides[t];
       if (std::none_of(sides.begin(), sides.end(),
@@ -222,12 +269,15 @@ class FaceRun {
         choice.triangles.push_back(t);
       }
     }
-    for (std::size_t f = 0; f < listed_.lists.size(); ++f) {
-      const FaceLabels<Criteria>& face = network.faces[f];
-      for (const std::uint32_t t : listed_.lists[f][face.triangulation[solution.chosen[f]]])
-        choice.triangles.push_back(t);
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+      const FaceLabels<Criteria>& face = labels[f];
       choice.labels += face.unary.size();
       choice.most_labels = std::max(choice.most_labels, face.unary.size());
+      choice.partial_faces += face.complete ? 0 : 1;
+      choice.largest_face = std::max<std::size_t>(choice.largest_face, face.triangulations.size);
+      if (face.relaxed) continue;
+      const auto triangles = face.triangulations[solution.chosen[f]];
+      choice.triangles.insert(choice.triangles.end(), triangles.begin(), triangles.end());
     }
     std::sort(choice.triangles.begin(), choice.triangles.end());
     return choice;
@@ -338,12 +388,9 @@ class FaceRun {
 
   [[nodiscard]] FaceOptimizeResult report(const Choice& choice) const {
     FaceOptimizeResult result;
-    result.faces = listed_.lists.size();
-    result.partial_faces =
-        static_cast<std::size_t>(std::count(listed_.partial.begin(), listed_.partial.end(), 1));
-    for (const FaceTriangulations& list : listed_.lists) {
-      result.largest_face = std::max<std::size_t>(result.largest_face, list.size);
-    }
+    result.faces = faces_.faces.size();
+    result.partial_faces = choice.partial_faces;
+    result.largest_face = choice.largest_face;
     result.labels = choice.labels;
     result.most_labels = choice.most_labels;
     result.new_edges = static_cast<std::size_t>(choice.value.level[Criteria]);
@@ -398,7 +445,8 @@ class FaceRun {
   const Reference* reference_;
   SolverLimits limits_;
   Progress& progress_;
-  ListedFaces listed_;
+  LabelLimits label_limits_;
+  std::vector<SearchedFace> searched_;
   FaceSides sides_;
   std::optional<PlateauNodes> pits_;
   std::size_t pit_level_ = 0;

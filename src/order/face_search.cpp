@@ -84,7 +84,7 @@ class FaceSearch {
     std::sort(on_side_.begin(), on_side_.end());
   }
 
-  [[nodiscard]] std::optional<FrontGraph> find_fronts(const FrontLimits& limits) const;
+  [[nodiscard]] std::optional<FrontGraph> find_fronts(const FrontOptions& options) const;
   [[nodiscard]] FaceOrders sweep(const FrontGraph& graph) const;
 
  private:
@@ -129,19 +129,20 @@ bool FaceSearch::cover(std::span<const std::uint32_t> front, std::uint32_t trian
   return true;
 }
 
-std::optional<FrontGraph> FaceSearch::find_fronts(const FrontLimits& limits) const {
+std::optional<FrontGraph> FaceSearch::find_fronts(const FrontOptions& options) const {
   FrontList fronts;
   Front next;
   std::vector<Arc> arcs;
   fronts.number(first_front());
   // Each front is reached by as many triangles on every path, so those that are found first have fewer.
   for (std::uint32_t f = 0; f < fronts.size(); ++f) {
-    if (fronts.work() > limits.work_limit) return std::nullopt;
+    if (fronts.work() > options.work_limit) return std::nullopt;
     if (fronts[f].empty()) continue;
     const std::uint32_t lowest = fronts[f].front();
     auto at = std::lower_bound(on_side_.begin(), on_side_.end(), std::pair(lowest, std::uint32_t{0}));
     for (; at != on_side_.end() && at->first == lowest; ++at) {
-      if (order(at->second) > limits.max_order || !cover(fronts[f], at->second, next)) continue;
+      if (!options.usable.empty() && options.usable[at->second] == 0) continue;
+      if (!cover(fronts[f], at->second, next)) continue;
       arcs.push_back({f, fronts.number(next), at->second});
     }
   }
@@ -170,11 +171,6 @@ FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {
 
 }  // namespace
 
-std::optional<FrontGraph> find_fronts(const Candidates& candidates, std::size_t face,
-                                      const FrontLimits& limits) {
-  return FaceSearch(candidates, face).find_fronts(limits);
-}
-
 std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
                                       std::size_t work_limit) {
   const FaceSearch search(candidates, face);
@@ -184,3 +180,12 @@ std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t 
 }
 
 }  // namespace thalweg::detail
+
+namespace thalweg {
+
+std::optional<FrontGraph> find_fronts(const FixedFaces& faces, std::size_t face,
+                                      const FrontOptions& options) {
+  return detail::FaceSearch(faces, face).find_fronts(options);
+}
+
+}  // namespace thalweg

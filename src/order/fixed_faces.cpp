@@ -48,7 +48,7 @@ bool on_surface(const Tin& surface, VertexId a, VertexId b) {
 }
 
 /// Triangulations from each front on, up to a limit.
-std::vector<std::uint64_t> count_paths(const detail::FrontGraph& graph) {
+std::vector<std::uint64_t> count_paths(const FrontGraph& graph) {
   constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint64_t> paths(graph.front_count, 0);
   if (graph.empty_front) paths[*graph.empty_front] = 1;
@@ -130,7 +130,7 @@ std::vector<VertexId> vertices_inside(const FixedFaces& faces, std::size_t face)
 
 std::optional<std::int64_t> find_least_sum(const FixedFaces& faces, std::size_t face,
                                            std::span<const std::int64_t> weights, std::size_t work_limit) {
-  const auto graph = detail::find_fronts(faces, face, {.work_limit = work_limit});
+  const auto graph = find_fronts(faces, face, {.work_limit = work_limit});
   if (!graph || !graph->empty_front) return std::nullopt;
   std::vector<std::optional<std::int64_t>> behind(graph->front_count);
   behind[*graph->empty_front] = 0;
@@ -144,7 +144,7 @@ std::optional<std::int64_t> find_least_sum(const FixedFaces& faces, std::size_t 
 
 std::optional<FaceTriangulations> list_triangulations(const FixedFaces& faces, std::size_t face,
                                                       const TriangulationListOptions& options) {
-  const auto graph = detail::find_fronts(faces, face, {options.work_limit, options.max_order});
+  const auto graph = find_fronts(faces, face, {.work_limit = options.work_limit});
   if (!graph) return std::nullopt;
   const std::vector<std::uint64_t> paths = count_paths(*graph);
   if (paths[0] > options.most) return std::nullopt;

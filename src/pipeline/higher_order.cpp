@@ -41,13 +41,12 @@ std::vector<OrderTriangle> triangles_of_flips(const Terrain& terrain, OrderDefin
 
 /// 1 for each face that has more triangulations than the optimiser lists.
 std::vector<std::uint8_t> faces_too_large(const FixedFaces& faces, const Progress& progress) {
-  constexpr std::size_t kBlock = 64, kSmall = 14;  // 2^14 sets of triangles are no more than it lists
-  const std::size_t most = FaceOptimizeOptions{}.most_triangulations;
+  constexpr std::size_t kBlock = 64, kSmall = 14, kMost = 20'000;
   std::vector<std::uint8_t> too_large(faces.faces.size(), 0);
   for_each_block(too_large.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       if (faces.faces.row(f).size() <= kSmall) continue;
-      too_large[f] = list_triangulations(faces, f, {.most = most}) ? 0 : 1;
+      too_large[f] = list_triangulations(faces, f, {.most = kMost}) ? 0 : 1;
     }
   });
   return too_large;

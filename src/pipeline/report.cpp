@@ -267,7 +267,7 @@ void add_structure(Rows rows, const Report& r) {
     rows.row("definition", r.higher_order->definition);
     if (r.higher_order->only_flips) rows.row("chosen from", "flips of Delaunay edges");
     rows.count("faces", r.higher_order->faces);
-    rows.count_if_any("faces not listed whole", r.higher_order->partial_faces);
+    rows.count_if_any("faces not searched whole", r.higher_order->partial_faces);
     rows.count("largest face, triangles", r.higher_order->largest_face);
     rows.count("labels", r.higher_order->labels);
     rows.count("most labels of a face", r.higher_order->most_labels);

@@ -19,20 +19,25 @@ struct FaceOptimizeOptions {
   /// before the others: shape is given up only where the criteria before it gain. Its line in the result is
   /// `order-sum`.
   std::optional<std::size_t> order_sum_after;
-  /// Largest number of triangulations of one face that are listed. Where there are more, only those of a
+  /// Largest number of edges in the fronts of one face. Where there are more, only triangulations of a
   /// smaller order are chosen from; the bound holds for all.
-  std::size_t most_triangulations = 20'000;
+  std::size_t work_limit = 2'000'000;
+  /// Largest number of comparisons of partial triangulations of one face: a count, so the answer is the same
+  /// everywhere. From there on only `few_labels` are kept of those that have the same front; the bound holds
+  /// for all.
+  std::size_t most_comparisons = 100'000'000;
+  std::size_t few_labels = 16;
 };
 
 struct FaceOptimizeResult {
   std::vector<OrderTriangle> triangles;   ///< the result, sorted
   std::vector<CriterionResult> criteria;  ///< as the options' criteria, and the sum of orders in its place
   std::size_t faces = 0;
-  std::size_t partial_faces = 0;  ///< those of which not all triangulations could be listed
-  std::size_t largest_face = 0;   ///< triangles
-  std::size_t labels = 0;         ///< triangulations of all faces, those that look alike from outside once
-  std::size_t most_labels = 0;    ///< of one face
-  std::size_t new_edges = 0;      ///< that the given TIN does not have
+  std::size_t partial_faces = 0;   ///< those of which only some triangulations were chosen from
+  std::size_t largest_face = 0;    ///< triangles
+  std::size_t labels = 0;          ///< triangulations of all faces that may be best for choices elsewhere
+  std::size_t most_labels = 4000;  ///< of one face
+  std::size_t new_edges = 0;       ///< that the given TIN does not have
   std::size_t fixed_by_elimination = 0;  ///< variables: faces, and what counts pits
   std::size_t pieces = 0;
   std::size_t largest_piece = 0;  ///< variables
@@ -46,9 +51,10 @@ struct FaceOptimizeResult {
 ///
 /// Pre: `delaunay` is the constrained Delaunay triangulation on the surface for which the faces were found.
 /// Throws: Error{Usage} as optimize_first_order; {Unsupported} for a criterion of vertices and for depths of
-/// pits; {SizeLimit} if a face has more triangulations than the options allow and the
-/// Delaunay triangulation is none of them; {Cancelled}.
-/// Complexity: triangulations of all faces; then linear but for pieces that stay wide. Runs on all threads.
+/// pits; {SizeLimit} if a face has more fronts than the options allow and the Delaunay
+/// triangulation is none of its own; {Cancelled}.
+/// Complexity: fronts of all faces, and what is kept at each; then linear but for pieces that stay wide. Runs
+/// on all threads.
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                   const FaceOptimizeOptions& options, Progress& progress);
 

@@ -73,9 +73,8 @@ std::vector<OrderTriangle> keep_on_surface(const Tin& surface, std::vector<Order
 std::vector<VertexId> vertices_inside(const FixedFaces& faces, std::size_t face);
 
 struct TriangulationListOptions {
-  std::size_t most = 4096;                ///< triangulations
-  std::size_t work_limit = 2'000'000;     ///< edges of fronts
-  std::uint32_t max_order = 0xffffffffU;  ///< of the triangles that are used
+  std::size_t most = 4096;             ///< triangulations
+  std::size_t work_limit = 2'000'000;  ///< edges of fronts
 };
 
 /// All triangulations of one face.

@@ -83,7 +83,7 @@ struct ReportHigherOrder {
   unsigned order = 0;
   bool only_flips = false;        ///< chosen from: else all triangulations of the order
   std::size_t faces = 0;          ///< between fixed edges, those with a choice
-  std::size_t partial_faces = 0;  ///< with too many triangulations to list: chosen among a smaller order's
+  std::size_t partial_faces = 0;  ///< that take too much work: only some triangulations were chosen from
   std::size_t largest_face = 0;   ///< triangles
   std::size_t labels = 0;         ///< triangulations of all faces, those that look alike from outside once
   std::size_t most_labels = 0;    ///< of one face

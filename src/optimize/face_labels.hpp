@@ -1,0 +1,56 @@
+#pragma once
+
+/// The triangulations of one face that the rest of the problem has to choose from.
+
+#include "optimize/face_model.hpp"
+
+#include <thalweg/order/face_fronts.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace thalweg {
+
+template <std::size_t Criteria>
+struct FaceLabels {
+  FaceTriangulations triangulations;  ///< by label
+  std::vector<Cost<Criteria>> unary;  ///< by label
+  std::vector<std::uint32_t> side;    ///< sides beyond which there is another face, ascending
+  /// For each of these, for each label: which of the side's candidates it has.
+  std::vector<std::vector<std::uint16_t>> at_side;
+  std::vector<PlateauLink> link;                 ///< what free edges of the face join, ascending
+  std::vector<std::vector<std::uint8_t>> joins;  ///< for each of these, by label: 1 if it does
+  /// Whether, whatever is chosen in other faces, one of the labels costs no more than any triangulation of
+  /// the face.
+  bool complete = true;
+  bool relaxed = false;  ///< one label that stands for all triangulations; none is listed
+};
+
+struct LabelLimits {
+  std::size_t most_comparisons = 0;
+  std::size_t few_labels = 1;  ///< kept at each front once all comparisons are spent
+};
+
+/// The triangulations that may be best for something that is chosen in other faces, found without listing the
+/// others. Where the limits leave some out, the labels are not complete.
+/// Pre: the graph is of the face and has an empty front. Complexity: for each front what comes to it times
+/// what is kept there.
+template <std::size_t Criteria>
+FaceLabels<Criteria> label_face(const FaceModel<Criteria>& model, const FrontGraph& graph,
+                                const LabelLimits& limits);
+
+/// Notes which candidates at sides of faces no label need have. Complexity: linear in labels and sides.
+template <std::size_t Criteria>
+void note_possible(const FaceSides& sides, const std::vector<FaceLabels<Criteria>>& faces,
+                   SideWeights<Criteria>& weights);
+
+/// One label in the place of all triangulations of a face: it costs no more than any of them under any labels
+/// of the neighbours. At each side it has a class of its own, after the candidates (LabelNetwork couples it
+/// at the least cost), and it joins what any candidate edge of the face joins. `size`: triangles of a
+/// triangulation. Complexity: pairs of candidates at the face's edges, and its fronts or pairs of edges that
+/// cross.
+template <std::size_t Criteria>
+FaceLabels<Criteria> relax_face(const FaceModel<Criteria>& model, std::uint32_t size);
+
+}  // namespace thalweg
