@@ -1,7 +1,8 @@
 // The options of the main job by name.
 #include "pipeline/build_arguments.hpp"
 
-#include <map>
+#include "pipeline/one_of.hpp"
+
 #include <string>
 #include <utility>
 
@@ -10,23 +11,22 @@ namespace thalweg::cli {
 namespace {
 
 void add_ground_options(CLI::App& command, BuildArguments& a) {
-  command.add_option("--duplicates", a.config.ground.duplicates, "height of points with the same x, y")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, DuplicateRule>{{"first", DuplicateRule::First},
-                                                                       {"last", DuplicateRule::Last},
-                                                                       {"lowest", DuplicateRule::Lowest},
-                                                                       {"highest", DuplicateRule::Highest},
-                                                                       {"mean", DuplicateRule::Mean}}))
+  take_one_of<DuplicateRule>(
+      command.add_option("--duplicates", a.config.ground.duplicates, "height of points with the same x, y"),
+      {{"first", DuplicateRule::First},
+       {"last", DuplicateRule::Last},
+       {"lowest", DuplicateRule::Lowest},
+       {"highest", DuplicateRule::Highest},
+       {"mean", DuplicateRule::Mean}})
       ->default_str("first");
   command.add_option("--snap", a.config.snap_m, "points nearer than this, in metres, count as duplicates")
       ->check(non_negative_number());
   command.add_option("--max-edge", a.max_edge_m, "drop rim triangles with a longer rim edge, metres")
       ->check(positive_number());
-  command
-      .add_option("--engine", a.config.ground.engine,
-                  "who triangulates: our own, or CGAL as a check; the triangulation is the same")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, TriangulationEngine>{
-          {"flat", TriangulationEngine::Flat}, {"cgal", TriangulationEngine::Cgal}}))
+  take_one_of<TriangulationEngine>(
+      command.add_option("--engine", a.config.ground.engine,
+                         "who triangulates: our own, or CGAL as a check; the triangulation is the same"),
+      {{"flat", TriangulationEngine::Flat}, {"cgal", TriangulationEngine::Cgal}})
       ->default_str("flat");
   command
       .add_option("--memory-limit", a.memory_limit_bytes,

@@ -1,11 +1,12 @@
 // Options about sources that `build` and `order` share.
 #include "pipeline/source_options.hpp"
 
+#include "pipeline/one_of.hpp"
+
 #include <thalweg/base/error.hpp>
 
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -74,48 +75,47 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
   command.add_option("--line-z-field", read.line_z_field, "attribute with the height of lines");
   command.add_option("--kind-field", read.kind_field, "attribute that says ridge or valley");
   command.add_option("--where", read.where, "attribute filter, SQL");
-  command
-      .add_option("--coords", read.coords, "text: positions are dms (degrees, minutes, seconds), utm or mgrs")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, PositionForm>{
-          {"dms", PositionForm::Dms}, {"utm", PositionForm::Utm}, {"mgrs", PositionForm::Mgrs}}));
+  take_one_of<PositionForm>(
+      command.add_option("--coords", read.coords,
+                         "text: positions are dms (degrees, minutes, seconds), utm or mgrs"),
+      {{"dms", PositionForm::Dms}, {"utm", PositionForm::Utm}, {"mgrs", PositionForm::Mgrs}});
   command.add_option("--geoid", read.geoid,
                      "geoid model, as egm2008-5, that heights are taken off, to be above it");
-  command.add_option("--heights-above", read.heights_above, "what heights are above before --geoid")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, HeightsAbove>{
-          {"ellipsoid", HeightsAbove::Ellipsoid}, {"geoid", HeightsAbove::Geoid}}))
+  take_one_of<HeightsAbove>(
+      command.add_option("--heights-above", read.heights_above, "what heights are above before --geoid"),
+      {{"ellipsoid", HeightsAbove::Ellipsoid}, {"geoid", HeightsAbove::Geoid}})
       ->default_str("ellipsoid");
   command.add_option("--classes", read.classes, "LAS: classes that are points, as 2,9 (2 is ground)")
       ->delimiter(',')
       ->expected(1, 256)
       ->allow_extra_args(false)
       ->check(CLI::Range(0, 255));
-  command.add_option("--returns", read.returns, "LAS: all, first, last returns of a pulse")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, LasReturns>{
-          {"all", LasReturns::All}, {"first", LasReturns::First}, {"last", LasReturns::Last}}))
+  take_one_of<LasReturns>(
+      command.add_option("--returns", read.returns, "LAS: all, first, last returns of a pulse"),
+      {{"all", LasReturns::All}, {"first", LasReturns::First}, {"last", LasReturns::Last}})
       ->default_str("all");
   command.add_option("--bbox", a.bbox, "xmin,ymin,xmax,ymax: only what lies there");
   command.add_option("--s-crs", read.source_crs, "CRS of the sources, in place of their own (-s_srs)");
   command.add_option("--t-crs", read.target_crs, "CRS to transform to (-t_srs)");
   command.add_option("--a-crs", read.assigned_crs, "CRS to assign without transforming (-a_srs)");
-  command
-      .add_option("--nodata", read.nodata, "nodata inside of a DEM: bridge-holes, bridge-all, bridge-none")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, NodataMode>{{"bridge-holes", NodataMode::BridgeHoles},
-                                                                    {"bridge-all", NodataMode::BridgeAll},
-                                                                    {"bridge-none", NodataMode::BridgeNone}}))
+  take_one_of<NodataMode>(command.add_option("--nodata", read.nodata,
+                                             "nodata inside of a DEM: bridge-holes, bridge-all, bridge-none"),
+                          {{"bridge-holes", NodataMode::BridgeHoles},
+                           {"bridge-all", NodataMode::BridgeAll},
+                           {"bridge-none", NodataMode::BridgeNone}})
       ->default_str("bridge-holes");
 }
 
 void add_crossing_option(CLI::App& command, GroundOptions& ground) {
-  command.add_option("--crossing", ground.crossing, "height where lines cross, touch or overlap")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, CrossingRule>{{"auto", CrossingRule::Auto},
-                                                                      {"error", CrossingRule::Error},
-                                                                      {"lower", CrossingRule::Lower},
-                                                                      {"higher", CrossingRule::Higher},
-                                                                      {"mean", CrossingRule::Mean},
-                                                                      {"first", CrossingRule::First},
-                                                                      {"last", CrossingRule::Last}}))
+  take_one_of<CrossingRule>(
+      command.add_option("--crossing", ground.crossing, "height where lines cross, touch or overlap"),
+      {{"auto", CrossingRule::Auto},
+       {"error", CrossingRule::Error},
+       {"lower", CrossingRule::Lower},
+       {"higher", CrossingRule::Higher},
+       {"mean", CrossingRule::Mean},
+       {"first", CrossingRule::First},
+       {"last", CrossingRule::Last}})
       ->default_str(ground.crossing == CrossingRule::Error ? "error" : "auto");
 }
 

@@ -1,11 +1,11 @@
 // thalweg convert: from a TIN to another mesh, to vector layers, to a raster, to contours.
 #include "command.hpp"
+#include "pipeline/one_of.hpp"
 #include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/convert.hpp>
 
-#include <map>
 #include <memory>
 #include <string>
 
@@ -29,17 +29,16 @@ void add_raster_options(CLI::App& command, ConvertArguments& a) {
                   "raster: side of a cell, in units of the TIN's coordinates")
       ->check(positive_number());
   command.add_option("--extent", a.extent, "raster: xmin,ymin,xmax,ymax of its sides (default: the TIN's)");
-  command.add_option("--surface", a.raster.value, "raster: elevation, hillshade, slope, aspect (degrees)")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, SurfaceValue>{{"elevation", SurfaceValue::Elevation},
-                                                                      {"hillshade", SurfaceValue::Hillshade},
-                                                                      {"slope", SurfaceValue::Slope},
-                                                                      {"aspect", SurfaceValue::Aspect}}))
+  take_one_of<SurfaceValue>(command.add_option("--surface", a.raster.value,
+                                               "raster: elevation, hillshade, slope, aspect (degrees)"),
+                            {{"elevation", SurfaceValue::Elevation},
+                             {"hillshade", SurfaceValue::Hillshade},
+                             {"slope", SurfaceValue::Slope},
+                             {"aspect", SurfaceValue::Aspect}})
       ->default_str("elevation");
-  command.add_option("--ot", a.raster.type, "raster: type of the values, float32 or float64")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, RasterType>{{"float32", RasterType::Float32},
-                                                                            {"float64", RasterType::Float64}},
-                                          CLI::ignore_case))
+  take_one_of<RasterType>(
+      command.add_option("--ot", a.raster.type, "raster: type of the values, float32 or float64"),
+      {{"float32", RasterType::Float32}, {"float64", RasterType::Float64}})
       ->default_str("float32");
 }
 

@@ -2,6 +2,7 @@
 #include "base/printable.hpp"
 #include "command.hpp"
 #include "interrupt.hpp"
+#include "pipeline/one_of.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/report.hpp>
@@ -88,17 +89,12 @@ bool lacks_threads(const std::exception& error) {
          std::string_view(error.what()).find("pthread_create") != std::string_view::npos;
 }
 
-/// Shows the names that an option takes, "{first,last}", and not what they stand for inside.
+/// Shows the names that an option takes, "{first,last}", without the kind of value that they stand for.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
-    static const std::regex choice("ENUM:value in \\{([^}]*)\\} OR \\{[^}]*\\}");
-    static const std::regex inside("->[^,]*");
-    const std::string text = CLI::Formatter::make_option_opts(option);
-    std::smatch found;
-    if (!std::regex_search(text, found, choice)) return text;
-    return found.prefix().str() + "{" + std::regex_replace(found[1].str(), inside, "") + "}" +
-           found.suffix().str();
+    static const std::regex choice("(ENUM|TEXT):\\{");
+    return std::regex_replace(CLI::Formatter::make_option_opts(option), choice, "{");
   }
 };
 
@@ -149,9 +145,8 @@ void add_common_options(CLI::App& command, Common& common) {
   command.set_version_flag("--version", "thalweg " + version());
   command.add_flag("-q,--quiet", common.quiet, "no progress and no summary; only errors");
   command.add_flag("--progress", common.progress, "draw progress also where stderr is no terminal");
-  command.add_option("-f,--format", common.format, "what is printed: text or json")
-      ->transform(CLI::CheckedTransformer(
-          std::vector<std::pair<std::string, Format>>{{"text", Format::Text}, {"json", Format::Json}}))
+  take_one_of<Format>(command.add_option("-f,--format", common.format, "what is printed: text or json"),
+                      {{"text", Format::Text}, {"json", Format::Json}})
       ->default_str("text");
   command.add_option("--threads", common.threads, "threads to use; the result does not depend on it")
       ->check(CLI::Range(1, 1024))
