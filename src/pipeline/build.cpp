@@ -150,6 +150,14 @@ void check_changes(const BuildConfig& config, const OutputConfig& output) {
               "first, then condition what is left with thalweg optimize --condition");
 }
 
+GroundOptions ground_options(const BuildConfig& config, const Plane& plane) {
+  GroundOptions options = config.ground;
+  options.snap = config.snap_m / plane.metres_per_unit();
+  if (plane.projected()) options.resolution = kGeographicResolutionM;
+  options.numbering = Numbering::AlongCurve;
+  return options;
+}
+
 BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const OutputConfig& output,
                  Progress& progress) {
   Stopwatch watch;
@@ -175,12 +183,8 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   report.timings_s.read = watch.lap();
 
   progress.start_phase("triangulate");
-  GroundOptions ground_options = config.ground;
-  ground_options.snap = config.snap_m / plane.metres_per_unit();
-  if (plane.projected()) ground_options.resolution = kGeographicResolutionM;
-  ground_options.numbering = Numbering::AlongCurve;
   if (plane.projected()) survey.survey.to_source = [&back = plane](Point2 p) { return back.to_written(p); };
-  Ground ground = build_ground(survey.survey, ground_options, progress);
+  Ground ground = build_ground(survey.survey, ground_options(config, plane), progress);
   describe_input(read, ground, report);
   report.conflicts = std::move(ground.conflicts);
   if (plane.projected()) {

@@ -146,6 +146,11 @@ void write_model(const LoadedTin& loaded, const SwmmView& view, const DrainConfi
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
   const SwmmFile model = write_swmm(loaded, view, progress);
   report.swmm = model.report;
+  if (model.report.outfalls == 0) {
+    report.notes.emplace_back(
+        "the model has no outfall, without which SWMM does not run: all of the network ends in pits; see "
+        "--pass-pits, --condition, --outlets");
+  }
   write_text(outputs.add(config.swmm_path, mode), config.swmm_path, model.text);
 }
 

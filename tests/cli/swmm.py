@@ -195,6 +195,8 @@ def main():
             counts = [len(read_model[kind]) for kind in ("JUNCTIONS", "OUTFALLS", "STORAGE")]
             check(counts == [figures["junctions"], figures["outfalls"], figures["storages"]], "counts of nodes")
             check([len(out), len(grounds)] == [figures["conduits"], figures["subcatchments"]], "other counts")
+            noted = any("no outfall" in note for note in report["notes"])
+            check(noted == (counts[1] == 0), "the note of a model without outfall")
             check((counts[2] > 0) == with_pits, f"{counts[2]} storage units")
             total = sum(row[3] for row in grounds.values()) * 1e4
             check(abs(total - figures["area_m2"]) < 1e-9 * total, "areas do not sum to the report's")
