@@ -78,12 +78,17 @@ void LayerReader::finish(ReadContext& run, const GdalSession& session) const {
 }
 
 std::optional<int> LayerReader::find_field(const std::string& field, OptionUse& use) {
-  const int index = layer_->GetLayerDefn()->GetFieldIndex(field.c_str());
+  OGRFeatureDefn& definition = *layer_->GetLayerDefn();
+  const int index = definition.GetFieldIndex(field.c_str());
   if (index >= 0) {
     use.taken = true;
     return index;
   }
-  use.refusals.push_back(name() + " has no field " + field);
+  std::string names;
+  for (int i = 0; i < definition.GetFieldCount(); ++i)
+    names += (i == 0 ? "" : ", ") + std::string(definition.GetFieldDefn(i)->GetNameRef());
+  use.refusals.push_back(name() + " has no field " + field +
+                         (names.empty() ? " (it has none)" : " (its fields: " + names + ")"));
   return std::nullopt;
 }
 

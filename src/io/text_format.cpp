@@ -114,12 +114,6 @@ std::vector<std::string> to_names(const std::vector<std::string_view>& fields) {
   return names;
 }
 
-std::string list(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
 /// The first row that is passed over by nothing, and the last comment before it.
 struct FirstRow {
   std::string_view row;
@@ -190,13 +184,13 @@ void take_first_columns(TextFormat& format, bool named, const std::string& name)
     const std::optional<std::size_t> column = find_name(format.names, known[axis]);
     if (column && *column != axis) {
       throw Error(ErrorCode::BadFormat, name + ": the columns of x and y cannot be told from the header (" +
-                                            list(format.names) + "); name them x and y");
+                                            list_columns(format) + "); name them x and y");
     }
   }
   format.x = 0;
   format.y = 1;
   if (named)
-    format.notes.push_back(name + ": the first columns (" + list(format.names) + ") are taken as x, y, z");
+    format.notes.push_back(name + ": the first columns (" + list_columns(format) + ") are taken as x, y, z");
 }
 
 void find_columns(TextFormat& format, bool named, const std::string& name) {
@@ -239,7 +233,7 @@ void find_position_columns(TextFormat& format, bool named, std::string_view firs
     format.position = {*whole};
   } else if (named) {
     throw Error(ErrorCode::BadFormat,
-                name + ": no column holds the positions (its columns: " + list(format.names) + "); name " +
+                name + ": no column holds the positions (its columns: " + list_columns(format) + "); name " +
                     (utm ? "them zone, x, y, or one utm" : "one mgrs"));
   } else {
     const bool parted = utm && first_field.find(' ') == std::string_view::npos;
@@ -251,6 +245,12 @@ void find_position_columns(TextFormat& format, bool named, std::string_view firs
 }
 
 }  // namespace
+
+std::string list_columns(const TextFormat& format) {
+  std::string text;
+  for (const std::string& name : format.names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
 
 bool is_passed_over(std::string_view row) {
   row = trim(row);
@@ -315,7 +315,7 @@ TextFormat detect_format(std::string_view rows, const std::string& name, const R
   }
   if (!format.z && options.heights == HeightRule::Required) {
     throw Error(ErrorCode::MissingHeight, name + " has no column with heights (its columns: " +
-                                              list(format.names) + "); name one z, or give --z-field NAME");
+                                              list_columns(format) + "); name one z, or give --z-field NAME");
   }
   return format;
 }

@@ -28,6 +28,8 @@ struct TextFormat {
   std::vector<std::string> notes;
 };
 
+/// The names of all columns, separated by commas.
+std::string list_columns(const TextFormat& format);
 /// True for blank rows and comments: what begins with # or //.
 bool is_passed_over(std::string_view row);
 /// The fields of a row, without surrounding blanks and quotes.

@@ -109,7 +109,8 @@ class TextPoints : public SourceReader {
     if (!run.options.z_field.empty()) {
       run.z_field.taken |= format.has_z_field;
       if (!format.has_z_field)
-        run.z_field.refusals.push_back(name() + " has no column " + run.options.z_field);
+        run.z_field.refusals.push_back(name() + " has no column " + run.options.z_field +
+                                       " (its columns: " + list_columns(format) + ")");
     }
     if (run.options.where.empty()) return;
     try {
