@@ -11,7 +11,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <ctime>
+#include <utility>
 
 namespace thalweg::bench {
 namespace {
@@ -81,16 +83,6 @@ void sizes_and_orders(benchmark::internal::Benchmark* bench) {
 }
 
 BENCHMARK_CAPTURE(order_triangles, random, Scene::Random, OrderDefinition::Pathcon)->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(order_triangles, random5_pathcon, Scene::Random5, OrderDefinition::Pathcon)
-    ->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(order_triangles, random5_sees_triang, Scene::Random5, OrderDefinition::SeesTriang)
-    ->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(order_triangles, random5_sees_vtx, Scene::Random5, OrderDefinition::SeesVtx)
-    ->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(order_triangles, random5_conf_edge, Scene::Random5, OrderDefinition::ConfEdge)
-    ->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(order_triangles, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)
-    ->Apply(sizes_and_orders);
 BENCHMARK_CAPTURE(order_triangles, comb_sees_opp, Scene::Comb, OrderDefinition::SeesOpp)
     ->Args({10000, 1})
     ->Args({10000, 3})
@@ -100,29 +92,37 @@ BENCHMARK_CAPTURE(order_triangles, comb_sees_opp, Scene::Comb, OrderDefinition::
     ->MeasureProcessCPUTime()
     ->Iterations(1);
 
-// Includes the search for all triangles of the order.
-void useful_edges(benchmark::State& state, Scene scene, OrderDefinition definition) {
+// Both lists of `thalweg order`: all triangles, then from them the useful edges. Processor time of all
+// threads, in seconds per million found; the second includes the first.
+void lists(benchmark::State& state, Scene scene, OrderDefinition definition) {
   const ConstrainedOrder order(ground(scene, static_cast<std::size_t>(state.range(0))));
+  const auto k = static_cast<std::size_t>(state.range(1));
   Progress progress;
-  std::size_t found = 0;
+  const auto since = [](std::clock_t start) {
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
   for (auto _ : state) {
-    found = find_useful_edges(
-                order, {.definition = definition, .max_order = static_cast<std::size_t>(state.range(1))},
-                progress)
-                .size();
+    const std::clock_t start = std::clock();
+    auto triangles = find_order_triangles(order, {.definition = definition, .max_order = k}, progress);
+    const auto found = static_cast<double>(triangles.size());
+    state.counters["triangles"] = found;
+    state.counters["s_per_million_triangles"] = since(start) / found * 1e6;
+    const auto edges =
+        find_useful_edges(order, std::move(triangles), {.definition = definition, .max_order = k}, progress);
+    state.counters["edges"] = static_cast<double>(edges.size());
+    state.counters["s_per_million_edges"] = since(start) / static_cast<double>(edges.size()) * 1e6;
+    state.counters["unknown"] = static_cast<double>(
+        std::count_if(edges.begin(), edges.end(), [](const UsefulEdge& e) { return !e.order; }));
   }
-  state.counters["found"] = static_cast<double>(found);
-  state.counters["seconds_per_million"] =
-      benchmark::Counter(static_cast<double>(found) / 1e6,
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK_CAPTURE(useful_edges, random5_pathcon, Scene::Random5, OrderDefinition::Pathcon)
+BENCHMARK_CAPTURE(lists, random5_pathcon, Scene::Random5, OrderDefinition::Pathcon)->Apply(sizes_and_orders);
+BENCHMARK_CAPTURE(lists, random5_sees_triang, Scene::Random5, OrderDefinition::SeesTriang)
     ->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(useful_edges, random5_sees_triang, Scene::Random5, OrderDefinition::SeesTriang)
+BENCHMARK_CAPTURE(lists, random5_sees_vtx, Scene::Random5, OrderDefinition::SeesVtx)->Apply(sizes_and_orders);
+BENCHMARK_CAPTURE(lists, random5_conf_edge, Scene::Random5, OrderDefinition::ConfEdge)
     ->Apply(sizes_and_orders);
-BENCHMARK_CAPTURE(useful_edges, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)
-    ->Apply(sizes_and_orders);
+BENCHMARK_CAPTURE(lists, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)->Apply(sizes_and_orders);
 
 // As the build numbers its vertices: what is close in the plane is close in memory.
 Tin along_curve(const Tin& tin) {
