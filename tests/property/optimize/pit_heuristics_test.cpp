@@ -136,7 +136,9 @@ TEST(PitHeuristics, DoNotDependOnIds) {
     ASSERT_TRUE(faces);
     for (std::size_t h = 0; h < kHeuristics.size(); ++h) {
       const Places places = places_of(points, remove_pits(tin, *faces, kHeuristics[h], progress));
-      if (turn > 0) EXPECT_EQ(places, before[h]);
+      if (turn > 0) {
+        EXPECT_EQ(places, before[h]);
+      }
       before[h] = places;
     }
     std::vector<std::size_t> shuffled(points.size());
