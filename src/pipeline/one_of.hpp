@@ -15,6 +15,7 @@ namespace thalweg::cli {
 template <class Value>
 CLI::Option* take_one_of(CLI::Option* option, const std::vector<std::pair<std::string, Value>>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values) names.push_back(name);
   const auto check = [names](std::string& text) {
     const std::string lower = CLI::detail::to_lower(text);
