@@ -23,13 +23,13 @@
 //    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
 // 8. Of order 0 or 1, SeesVtx counts what SeesTriang does, and SeesOpp what ConfEdge does (Lemmas 5 and 6).
 //    So up to a limit of 1 the corners' views decide these, too; a vertex that an end of a side sees, and not
-//    the corner opposite, is asked for the side. Above it they tell that there are too many, or
-//    what else ConfEdge counts is found by looks through the sides (conf_edge_count.cpp).
-#include "order/conf_edge_count.hpp"
+//    the corner opposite, is asked for the side. Above it they tell that there are too many, or what the
+//    sides see decides (side_count.cpp).
 #include "order/corner_views.hpp"
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
 #include "order/point_grid.hpp"
+#include "order/side_count.hpp"
 #include "order/sights.hpp"
 #include "order/sweep_count.hpp"
 
@@ -49,7 +49,7 @@ struct OrderWorkspace::Parts {
   detail::SideSight side_sight;
   detail::SweepCount sweeps;
   detail::CornerViews views;
-  detail::ConfEdgeCount conf_edge;
+  detail::SideCount side_count;
   std::vector<VertexId> undecided;
   std::vector<VertexId> counted;
 };
@@ -197,7 +197,7 @@ bool ConstrainedOrder::views_help(OrderDefinition definition, std::size_t limit)
 bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                                       OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
-  auto& [flood, occupancy, side_sight, sweeps, views, conf_edge, undecided, counted] = *workspace.parts_;
+  auto& [flood, occupancy, side_sight, sweeps, views, side_count, undecided, counted] = *workspace.parts_;
   const bool vtx = definition == OrderDefinition::SeesVtx;
   const bool fewer = definition == OrderDefinition::Sees3vtx || definition == OrderDefinition::EmptyQuad;
   counted.clear();
@@ -216,11 +216,15 @@ bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition d
   return !views.gave_up();
 }
 
-// Adds to what SeesOpp counts what ConfEdge counts beside. False if that takes long.
-bool ConstrainedOrder::add_conflicts(const Triangle& corners, std::size_t limit,
-                                     OrderWorkspace& workspace) const {
+// As count, under SeesTriang or ConfEdge; `counted` holds what the weaker definition counts. False if that
+// takes long.
+bool ConstrainedOrder::count_by_sides(const Triangle& corners, OrderDefinition definition, std::size_t limit,
+                                      OrderWorkspace& workspace) const {
   std::vector<VertexId>& counted = workspace.parts_->counted;
-  const auto all = workspace.parts_->conf_edge.count(parts_->ground, corners, counted, limit);
+  detail::SideCount& sides = workspace.parts_->side_count;
+  const auto all = definition == OrderDefinition::ConfEdge
+                       ? sides.conflicting(parts_->ground, corners, counted, limit)
+                       : sides.lit(parts_->ground, corners, limit);
   if (all) counted.assign(all->begin(), all->end());
   return all.has_value();
 }
@@ -229,7 +233,7 @@ bool ConstrainedOrder::add_conflicts(const Triangle& corners, std::size_t limit,
 bool ConstrainedOrder::count_by_flood(const Triangle& corners, TriangleId start, OrderDefinition definition,
                                       const FloodLimits& limits, OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
-  auto& [flood, occupancy, side_sight, sweeps, views, conf_edge, undecided, counted] = *workspace.parts_;
+  auto& [flood, occupancy, side_sight, sweeps, views, side_count, undecided, counted] = *workspace.parts_;
   undecided.clear();
   counted.clear();
   const bool all = definition == OrderDefinition::Std || !ground.any_blocks();
@@ -282,7 +286,7 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
     if (count_by_flood(corners, face, definition, {limit, kFewFaces}, workspace)) return;
     if (count_by_views(corners, weaker, limit, workspace)) {
       if (same || counted.size() > limit) return;
-      if (definition == OrderDefinition::ConfEdge && add_conflicts(corners, limit, workspace)) return;
+      if (count_by_sides(corners, definition, limit, workspace)) return;
     }
   }
   count_by_flood(corners, face, definition, {limit, kUnlimited}, workspace);

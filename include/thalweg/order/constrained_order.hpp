@@ -119,7 +119,8 @@ class ConstrainedOrder {
   [[nodiscard]] bool views_help(OrderDefinition definition, std::size_t limit) const;
   bool count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                       OrderWorkspace& workspace) const;
-  bool add_conflicts(const Triangle& corners, std::size_t limit, OrderWorkspace& workspace) const;
+  bool count_by_sides(const Triangle& corners, OrderDefinition definition, std::size_t limit,
+                      OrderWorkspace& workspace) const;
   void count_in_grid(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
 
   std::unique_ptr<Parts> parts_;

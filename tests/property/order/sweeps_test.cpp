@@ -1,7 +1,7 @@
 // Angular sweeps, and looks through sides, against the oracle on small scenes, and against tests of pairs on
 // large ones.
-#include "order/conf_edge_count.hpp"
 #include "order/occupancy.hpp"
+#include "order/side_count.hpp"
 #include "order/sweep_count.hpp"
 
 #include <thalweg/mesh/change_tin.hpp>
@@ -45,7 +45,7 @@ struct Counter {
   const Ground& ground;
   detail::Flood flood;
   detail::SweepCount sweeps;
-  detail::ConfEdgeCount conf_edge;
+  detail::SideCount sides;
   std::size_t found = 0;  ///< by looks through sides
 
   TriangleId flood_from(const Triangle& corners) {
@@ -60,16 +60,30 @@ struct Counter {
     const TriangleId start = flood_from(corners);
     return sorted(sweeps.count(ground, corners, start, definition, flood));
   }
+  // Light from sides, where it does not go far, must fall on the same, and stop as soon as there are more.
+  void expect_lit(const Triangle& corners, const std::vector<VertexId>& expected) {
+    const auto all = sides.lit(ground, corners, kUnlimited);
+    if (all) {
+      ASSERT_EQ(sorted(*all), expected);
+    }
+    for (std::size_t limit = 0; limit < 4; ++limit) {
+      const auto some = sides.lit(ground, corners, limit);
+      ASSERT_TRUE(some || !all);
+      if (some) {
+        ASSERT_EQ(some->size() > limit, expected.size() > limit);
+      }
+    }
+  }
   // Looks through sides, where they do not go far, must count the same, and stop as soon as there are more.
   void expect_conflicts(const Triangle& corners, const std::vector<VertexId>& by_corners,
                         const std::vector<VertexId>& expected) {
-    const auto all = conf_edge.count(ground, corners, by_corners, kUnlimited);
+    const auto all = sides.conflicting(ground, corners, by_corners, kUnlimited);
     if (all) {
       ++found;
       ASSERT_EQ(sorted(*all), expected);
     }
     for (std::size_t limit = by_corners.size(); limit < by_corners.size() + 4; ++limit) {
-      const auto some = conf_edge.count(ground, corners, by_corners, limit);
+      const auto some = sides.conflicting(ground, corners, by_corners, limit);
       ASSERT_TRUE(some || !all);
       if (some) {
         ASSERT_EQ(some->size() > limit, expected.size() > limit);
@@ -96,6 +110,7 @@ TEST(Sweeps, CountWhatTheOracleCounts) {
         }
         ASSERT_EQ(counter.counted(t, definition), vertices)
             << definition_name(definition) << " of " << oracle::to_text(corners);
+        if (definition == OrderDefinition::SeesTriang) counter.expect_lit(t, vertices);
         if (definition == OrderDefinition::ConfEdge) conf_edge = vertices;
         if (definition == OrderDefinition::SeesOpp) counter.expect_conflicts(t, vertices, conf_edge);
       }
@@ -183,6 +198,7 @@ void expect_same_as_pairs(const Tin& tin, GroundMode mode, test::Random& random,
       }
       std::sort(expected.begin(), expected.end());
       ASSERT_EQ(counter.counted(t, definition), expected) << definition_name(definition);
+      if (definition == OrderDefinition::SeesTriang) counter.expect_lit(t, expected);
       if (definition == OrderDefinition::ConfEdge) conf_edge = expected;
       if (definition == OrderDefinition::SeesOpp) counter.expect_conflicts(t, expected, conf_edge);
       ASSERT_EQ(order.counted(t, definition, workspace), expected) << definition_name(definition);
