@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace thalweg {
 
@@ -258,6 +260,29 @@ class Builder {
   std::vector<std::uint32_t> variable_;    ///< by node
 };
 
+/// Of the fronts, as many as the limit allows; none if it allows no triangulation.
+std::optional<FrontGraph> search_part(const Tin& delaunay, const FixedFaces& faces, std::size_t face,
+                                      std::size_t work_limit) {
+  const auto triangles = faces.faces.row(face);
+  const auto search = [&](const auto& uses) {
+    std::vector<std::uint8_t> usable;
+    for (const std::uint32_t t : triangles) usable.push_back(uses(faces.triangles[t]) ? 1 : 0);
+    auto graph = find_fronts(faces, face, {.work_limit = work_limit, .usable = usable});
+    if (graph && !graph->empty_front) graph.reset();
+    return graph;
+  };
+  std::uint32_t order = 0;
+  for (const std::uint32_t t : triangles) order = std::max(order, faces.triangles[t].order);
+  while (order > 0) {
+    --order;
+    if (auto graph = search([&](const OrderTriangle& t) { return t.order <= order; })) return graph;
+  }
+  return search([&](const OrderTriangle& t) {
+    const HalfedgeId ab = delaunay.find_halfedge(t.corners[0], t.corners[1]);
+    return ab.valid() && delaunay.apex(ab) == t.corners[2];
+  });
+}
+
 /// What every triangulation of a face joins.
 std::vector<PlateauLink> links_of_all(const FixedFaces& faces, std::size_t face, const FrontGraph& graph,
                                       PlateauNodes& pits) {
@@ -305,6 +330,19 @@ FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const Side
                                     const std::vector<FaceLabels<Criteria>>& faces, PlateauNodes* pits,
                                     std::span<const PlateauSet> closed) {
   return Builder<Criteria>(terms, sides, faces).run(pits, closed);
+}
+
+SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::size_t face,
+                           std::size_t work_limit) {
+  auto graph = find_fronts(faces, face, {.work_limit = work_limit});
+  const bool whole = graph.has_value();
+  if (!whole) graph = search_part(delaunay, faces, face, work_limit);
+  if (graph) return {std::move(*graph), whole};
+  const Point2 at = delaunay.point(faces.triangles[faces.faces.row(face)[0]].corners[0]);
+  throw Error(ErrorCode::SizeLimit,
+              "the face between fixed edges at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
+                  ") has too many triangulations of that order, and none of a smaller one that could be "
+                  "found; take a smaller --order");
 }
 
 void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits) {

@@ -5,6 +5,7 @@
 #include "optimize/face_labels.hpp"
 #include "optimize/label_network.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,6 +36,11 @@ struct SearchedFace {
   FrontGraph graph;
   bool whole = true;  ///< whether it has all triangulations of the face
 };
+
+/// The fronts of a face; where they have more edges than `work_limit`, those of the largest order that has
+/// not, or of the Delaunay triangulation alone. Throws: Error{SizeLimit} if that is none of the face.
+SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::size_t face,
+                           std::size_t work_limit);
 
 /// Joins nodes that every triangulation of some face joins. Complexity: arcs of all graphs and links of their
 /// faces.

@@ -103,47 +103,12 @@ class FaceRun {
     return levels_[level] && levels_[level]->is(Criterion::LocalMinima);
   }
 
-  /// The fronts of each face; where there are too many, those of the largest order that has not.
   void search_faces(std::size_t work_limit) {
     searched_.resize(faces_.faces.size());
     for_each_block(faces_.faces.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) {
-        auto graph = find_fronts(faces_, f, {.work_limit = work_limit});
-        searched_[f].whole = graph.has_value();
-        if (!graph) graph = search_part(f, work_limit);
-        if (!graph) refuse_face(f);
-        searched_[f].graph = std::move(*graph);
-      }
+      for (std::size_t f = begin; f < end; ++f)
+        searched_[f] = search_fronts(delaunay_, faces_, f, work_limit);
     });
-  }
-
-  [[nodiscard]] std::optional<FrontGraph> search_part(std::size_t f, std::size_t work_limit) const {
-    const auto triangles = faces_.faces.row(f);
-    const auto search = [&](const auto& uses) {
-      std::vector<std::uint8_t> usable;
-      for (const std::uint32_t t : triangles) usable.push_back(uses(faces_.triangles[t]) ? 1 : 0);
-      auto graph = find_fronts(faces_, f, {.work_limit = work_limit, .usable = usable});
-      if (graph && !graph->empty_front) graph.reset();
-      return graph;
-    };
-    std::uint32_t order = 0;
-    for (const std::uint32_t t : triangles) order = std::max(order, faces_.triangles[t].order);
-    while (order > 0) {
-      --order;
-      if (auto graph = search([&](const OrderTriangle& t) { return t.order <= order; })) return graph;
-    }
-    return search([&](const OrderTriangle& t) {
-      const HalfedgeId ab = delaunay_.find_halfedge(t.corners[0], t.corners[1]);
-      return ab.valid() && delaunay_.apex(ab) == t.corners[2];
-    });
-  }
-
-  [[noreturn]] void refuse_face(std::size_t f) const {
-    const Point2 at = delaunay_.point(faces_.triangles[faces_.faces.row(f)[0]].corners[0]);
-    throw Error(ErrorCode::SizeLimit,
-                "the face between fixed edges at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
-                    ") has too many triangulations of that order, and none of a smaller one that could be "
-                    "found; take a smaller --order");
   }
 
   /// Solves the levels before `count`; those from it on cost nothing.
