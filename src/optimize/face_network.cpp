@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -260,27 +261,49 @@ class Builder {
   std::vector<std::uint32_t> variable_;    ///< by node
 };
 
-/// Of the fronts, as many as the limit allows; none if it allows no triangulation.
+/// The one path of the Delaunay triangulation; none if it has other triangles than candidates in the face.
+std::optional<FrontGraph> delaunay_path(const Tin& delaunay, const FixedFaces& faces, std::size_t face) {
+  const auto triangles = faces.faces.row(face);
+  FrontGraph graph;
+  std::vector<std::uint32_t> all, covered;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const OrderTriangle& t = faces.triangles[triangles[i]];
+    const auto& sides = faces.sides[triangles[i]];
+    std::copy_if(sides.begin(), sides.end(), std::back_inserter(all),
+                 [&](std::uint32_t side) { return !faces.edges[side / 2].free; });
+    const HalfedgeId ab = delaunay.find_halfedge(t.corners[0], t.corners[1]);
+    if (!ab.valid() || delaunay.apex(ab) != t.corners[2]) continue;
+    covered.insert(covered.end(), sides.begin(), sides.end());
+    graph.arcs.push_back({graph.front_count, graph.front_count + 1, i});
+    ++graph.front_count;
+  }
+  graph.empty_front = graph.front_count++;
+  std::sort(all.begin(), all.end());
+  std::sort(covered.begin(), covered.end());
+  const auto is_covered = [&](std::uint32_t side) {
+    return std::binary_search(covered.begin(), covered.end(), side);
+  };
+  const bool inside = std::all_of(covered.begin(), covered.end(), [&](std::uint32_t side) {
+    return !faces.edges[side / 2].free || is_covered(side ^ 1U);
+  });
+  if (!inside || !std::all_of(all.begin(), all.end(), is_covered)) return std::nullopt;
+  return graph;
+}
+
+/// Of the fronts, those of the largest order that the limit allows; none if no triangulation is at hand.
 std::optional<FrontGraph> search_part(const Tin& delaunay, const FixedFaces& faces, std::size_t face,
                                       std::size_t work_limit) {
   const auto triangles = faces.faces.row(face);
-  const auto search = [&](const auto& uses) {
-    std::vector<std::uint8_t> usable;
-    for (const std::uint32_t t : triangles) usable.push_back(uses(faces.triangles[t]) ? 1 : 0);
-    auto graph = find_fronts(faces, face, {.work_limit = work_limit, .usable = usable});
-    if (graph && !graph->empty_front) graph.reset();
-    return graph;
-  };
   std::uint32_t order = 0;
   for (const std::uint32_t t : triangles) order = std::max(order, faces.triangles[t].order);
   while (order > 0) {
     --order;
-    if (auto graph = search([&](const OrderTriangle& t) { return t.order <= order; })) return graph;
+    std::vector<std::uint8_t> usable;
+    for (const std::uint32_t t : triangles) usable.push_back(faces.triangles[t].order <= order ? 1 : 0);
+    auto graph = find_fronts(faces, face, {.work_limit = work_limit, .usable = usable});
+    if (graph && graph->empty_front) return graph;
   }
-  return search([&](const OrderTriangle& t) {
-    const HalfedgeId ab = delaunay.find_halfedge(t.corners[0], t.corners[1]);
-    return ab.valid() && delaunay.apex(ab) == t.corners[2];
-  });
+  return delaunay_path(delaunay, faces, face);
 }
 
 /// What every triangulation of a face joins.
