@@ -1,44 +1,72 @@
 #!/usr/bin/env python3
-"""Pits against the order, from the rows that bench_higher_order prints.
+"""Pits against the order, and what the heuristics leave too many, from the rows of higher_order.md.
 
-Usage: higher_order_plot.py TABLE.md PLOT.svg. Solid: the optimum; dashed: the flip heuristic; both as a share of the
-pits of the Delaunay triangulation.
+Usage: higher_order_plot.py TABLE.md PLOT.svg. A column a terrain, a colour a sample. Upper panels: the optimum as a share
+of the pits of the Delaunay triangulation (where it is not proved, what was found). Lower panels: pits of the flip
+heuristic (dashed) and of the hull heuristic (dotted) beyond the bound, in percent of it.
 """
 import pathlib
 import sys
 
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]
-WIDTH, HEIGHT, LEFT, TOP, RIGHT, BOTTOM = 640, 400, 56, 16, 220, 40
+COLOURS = {"points_random": "#0072b2", "points_offgrid": "#d55e00", "points_significant": "#009e73"}
+WIDTH, HEIGHT, GAP, LEFT, TOP = 170, 120, 34, 64, 44
 
 
 def read(path):
-    series = {}
+    """{(terrain, lines): {sample: [(k, optimum, bound, flip, hull)]}}"""
+    panels = {}
     for line in pathlib.Path(path).read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
-        if len(cells) > 5 and cells[1].isdigit():
-            series.setdefault(cells[0], []).append((int(cells[1]), int(cells[2]), int(cells[4])))
-    return series
+        if len(cells) < 20 or not cells[2].isdigit():
+            continue
+        terrain, sample = cells[0].split(", ")
+        optimum = int(cells[3])
+        bound = optimum if cells[4] == "optimal" else int(float(cells[4].removeprefix("bound ")))
+        rows = panels.setdefault((terrain, cells[1]), {}).setdefault(sample, [])
+        rows.append((int(cells[2]), optimum, bound, int(cells[5]), int(cells[6])))
+    return panels
+
+
+def panel(parts, x0, y0, title, series, least, most, ticks, last):
+    """series: (colour, dashes, [(k, value)])"""
+    x = lambda k: x0 + k * WIDTH / last
+    y = lambda value: y0 + HEIGHT * (most - value) / (most - least)
+    for tick in ticks:
+        parts.append(f'<line x1="{x0}" x2="{x0 + WIDTH}" y1="{y(tick):.1f}" y2="{y(tick):.1f}" stroke="#ddd"/>'
+                     f'<text x="{x0 - 4}" y="{y(tick) + 4:.1f}" text-anchor="end">{tick:g} %</text>')
+    for k in range(last + 1):
+        parts.append(f'<text x="{x(k):.1f}" y="{y0 + HEIGHT + 13}" text-anchor="middle">{k}</text>')
+    parts.append(f'<text x="{x0}" y="{y0 - 6}">{title}</text>')
+    for colour, dashes, points in series:
+        way = " ".join(f"{x(k):.1f},{y(value):.1f}" for k, value in points)
+        parts.append(f'<polyline points="{way}" fill="none" stroke="{colour}" stroke-width="1.6"{dashes}/>')
 
 
 def main():
-    series = read(sys.argv[1])
-    most = max(k for rows in series.values() for k, _, _ in rows)
-    x = lambda k: LEFT + k * (WIDTH - LEFT - RIGHT) / most
-    y = lambda share: TOP + (1 - share) * (HEIGHT - TOP - BOTTOM)
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif" '
-             'font-size="12"><rect width="100%" height="100%" fill="white"/>']
-    for share in (0, 0.25, 0.5, 0.75, 1):
-        parts.append(f'<line x1="{LEFT}" x2="{x(most):.1f}" y1="{y(share):.1f}" y2="{y(share):.1f}" stroke="#ddd"/>'
-                     f'<text x="{LEFT - 6}" y="{y(share) + 4:.1f}" text-anchor="end">{share:.0%}</text>')
-    for k in range(most + 1):
-        parts.append(f'<text x="{x(k):.1f}" y="{HEIGHT - 22}" text-anchor="middle">{k}</text>')
-    parts.append(f'<text x="{x(most / 2):.1f}" y="{HEIGHT - 6}" text-anchor="middle">order</text>')
-    for i, (name, rows) in enumerate(series.items()):
-        colour = COLOURS[i % len(COLOURS)]
-        for column, dashes in ((1, ""), (2, ' stroke-dasharray="4 3"')):
-            points = " ".join(f"{x(row[0]):.1f},{y(row[column] / rows[0][1]):.1f}" for row in rows)
-            parts.append(f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6"{dashes}/>')
-        parts.append(f'<text x="{x(most) + 10:.1f}" y="{TOP + 14 + 18 * i}" fill="{colour}">{name}</text>')
+    panels = read(sys.argv[1])
+    terrains = list(dict.fromkeys(terrain for terrain, _ in panels))
+    all_rows = [row for samples in panels.values() for rows in samples.values() for row in rows]
+    last = max(row[0] for row in all_rows)
+    most = max(5, 5 * -(-max(100 * (max(row[3:]) / row[2] - 1) for row in all_rows if row[2]) // 5))
+    width, height = LEFT + len(terrains) * (WIDTH + GAP), TOP + 4 * (HEIGHT + GAP)
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" '
+             'font-size="11"><rect width="100%" height="100%" fill="white"/>']
+    for i, (sample, colour) in enumerate(COLOURS.items()):
+        parts.append(f'<text x="{LEFT + 130 * i}" y="16" fill="{colour}">{sample}</text>')
+    parts.append(f'<text x="{LEFT + 400}" y="16">upper: optimum; lower: more than the bound, flip dashed, hull dotted</text>')
+    for (terrain, lines), samples in panels.items():
+        x0 = LEFT + terrains.index(terrain) * (WIDTH + GAP)
+        y0 = TOP + (2 if lines == "lines" else 0) * (HEIGHT + GAP)
+        title = terrain.split("_")[0] + (", lines" if lines == "lines" else "")
+        shares, gaps = [], []
+        for sample, rows in samples.items():
+            rows.sort()
+            shares.append((COLOURS[sample], "", [(row[0], 100 * row[1] / rows[0][1]) for row in rows]))
+            for column, dashes in ((3, "5 3"), (4, "1 3")):
+                points = [(row[0], 100 * (row[column] / row[2] - 1)) for row in rows if row[2]]
+                gaps.append((COLOURS[sample], f' stroke-dasharray="{dashes}"', points))
+        panel(parts, x0, y0, title, shares, 0, 100, (0, 50, 100), last)
+        panel(parts, x0, y0 + HEIGHT + GAP, title, gaps, 0, most, (0, most / 2, most), last)
     pathlib.Path(sys.argv[2]).write_text("\n".join([*parts, "</svg>"]) + "\n")
 
 
