@@ -1,8 +1,8 @@
 // Refuses, before the work starts, what the memory cannot hold.
 //
-// The figures are measured: peak memory of whole runs of 10^2, 3 x 10^5 and 10^6 random points to PLY is 52
-// MiB and 343 bytes a point at order 1 and below; at order 2 it is 1 500 bytes a point. Longitudes and
-// latitudes take 499, so 150 more; a simplification that keeps most points takes 465, so 120 more.
+// The figures are measured: peak memory of whole runs of 10^2 to 4 x 10^6 points to PLY is 53 MiB and up to
+// 252 bytes a random point, 271 a lattice point at order 1 and below; at order 2 it is 1 400 bytes a random
+// point. Longitudes and latitudes take 383, a simplification that keeps most points 396.
 #include "pipeline/memory_estimate.hpp"
 
 #include "base/memory.hpp"
@@ -15,10 +15,10 @@ namespace thalweg {
 
 namespace {
 
-constexpr std::size_t kBytesOfProgram = std::size_t{52} << 20U;
-constexpr std::size_t kBytesAVertex = 350;
+constexpr std::size_t kBytesOfProgram = std::size_t{53} << 20U;
+constexpr std::size_t kBytesAVertex = 280;
 constexpr std::size_t kBytesAVertexAboveOrder1 = 1500;
-constexpr std::size_t kBytesToProject = 150;
+constexpr std::size_t kBytesToProject = 110;
 constexpr std::size_t kBytesToSimplify = 120;
 
 std::string in_mebibytes(std::size_t bytes) {
