@@ -86,13 +86,13 @@ RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress
   tin.points_ = {};
   tin.heights_ = {};
   if (!any_constraint(tin.kinds_)) tin.kinds_ = {};
-  const std::vector<HalfedgeId> taken = renumbered.take({.corners = std::move(tin.triangles_),
+  const std::vector<HalfedgeId> moved = renumbered.take({.corners = std::move(tin.triangles_),
                                                          .twins = std::move(tin.twins_),
                                                          .kinds = std::move(tin.kinds_),
                                                          .number = {number.begin(), number.end()}},
                                                         progress);
-  result.source.resize(taken.size());
-  std::ranges::transform(taken, result.source.begin(), &Tin::triangle_of);
+  result.place.resize(moved.size());
+  std::ranges::transform(moved, result.place.begin(), &Tin::triangle_of);
   return result;
 }
 

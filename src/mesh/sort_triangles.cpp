@@ -87,7 +87,6 @@ SortedTriangles sort_triangles(std::span<const Triangle> corners, std::span<cons
           : fill_buckets(corners, vertex_count, progress, [&](VertexId v) { return number[v.index()]; });
   SortedTriangles sorted;
   sorted.triangles.resize(corners.size());
-  sorted.taken.resize(corners.size());
   sorted.moved.resize(corners.size());
   for_each_block(vertex_count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -97,7 +96,6 @@ SortedTriangles sort_triangles(std::span<const Triangle> corners, std::span<cons
         const Entry& entry = buckets.entries[i];
         const std::size_t old = entry.taken.index() / 3, corner = entry.taken.index() - 3 * old;
         sorted.triangles[i] = {VertexId{v}, entry.second, entry.third};
-        sorted.taken[i] = entry.taken;
         sorted.moved[old] = HalfedgeId{3 * i + (corner == 0 ? 0 : 3 - corner)};
       }
     }

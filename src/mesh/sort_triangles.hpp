@@ -12,17 +12,13 @@ namespace thalweg {
 
 struct SortedTriangles {
   std::vector<Triangle> triangles;
-  std::vector<HalfedgeId> taken;  ///< for each new triangle: what its first halfedge was
   std::vector<HalfedgeId> moved;  ///< for each old triangle: what its first halfedge is now
 
   /// What an old halfedge is now.
   [[nodiscard]] HalfedgeId now(HalfedgeId old) const {
     const std::size_t t = old.index() / 3;
-    return turned(moved[t], old.index() - 3 * t);
-  }
-  /// The halfedge `steps` (0, 1 or 2) after one of the same triangle.
-  static HalfedgeId turned(HalfedgeId h, std::size_t steps) {
-    const std::size_t first = h.index() / 3 * 3, side = h.index() - first + steps;
+    const std::size_t first = moved[t].index() / 3 * 3;
+    const std::size_t side = moved[t].index() - first + (old.index() - 3 * t);
     return HalfedgeId{first + (side < 3 ? side : side - 3)};
   }
 };

@@ -5,7 +5,6 @@
 //    that a hub of many triangles costs no more than other vertices.
 // 3. Where neighbours are not known, the twin of a -> b is looked up in the fan of a.
 #include "base/parallel.hpp"
-#include "base/prefetch.hpp"
 #include "sort_triangles.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -39,18 +38,6 @@ void check_corners(const Triangle& t, std::size_t vertex_count) {
   }
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
     throw Error(ErrorCode::InvalidTin, "triangle " + describe(t) + " repeats a vertex");
-  }
-}
-
-/// Neighbours lie anywhere in memory: asks in time for what the triangles after t will need.
-void fetch_ahead(const LinkedTriangles& linked, const SortedTriangles& sorted, std::size_t t) {
-  constexpr std::size_t kNear = 12, kFar = 24;  // triangles; measured, with little between 8 and 32
-  if (t + kFar >= sorted.taken.size()) return;
-  prefetch(&linked.twins[sorted.taken[t + kFar].index()]);
-  if (!linked.kinds.empty()) prefetch(&linked.kinds[sorted.taken[t + kFar].index()]);
-  const std::size_t first = sorted.taken[t + kNear].index() / 3 * 3;
-  for (std::size_t h = first; h < first + 3; ++h) {
-    if (linked.twins[h].valid()) prefetch(&sorted.moved[linked.twins[h].index() / 3]);
   }
 }
 
@@ -91,23 +78,19 @@ std::vector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progre
   std::atomic<std::size_t> rim = 0;
   for_each_block(triangles_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::size_t on_rim = 0;
-    for (std::size_t t = begin; t < end; ++t) {
-      fetch_ahead(linked, sorted, t);
-      for (std::size_t side = 0; side < 3; ++side) {
-        const HalfedgeId old = SortedTriangles::turned(sorted.taken[t], side);
-        const HalfedgeId twin = linked.twins[old.index()];
-        if (twin.valid()) twins_[3 * t + side] = sorted.now(twin);
-        on_rim += twin.valid() ? 0 : 1;
-        if (!linked.kinds.empty()) kinds_[3 * t + side] = linked.kinds[old.index()];
-      }
+    for (std::size_t given = 3 * begin; given < 3 * end; ++given) {
+      const HalfedgeId twin = linked.twins[given];
+      const std::size_t h = sorted.now(HalfedgeId{given}).index();
+      if (twin.valid()) twins_[h] = sorted.now(twin);
+      on_rim += twin.valid() ? 0 : 1;
+      if (!linked.kinds.empty()) kinds_[h] = linked.kinds[given];
     }
     rim += on_rim;
   });
   edge_count_ = (halfedge_count() + rim) / 2;
   linked = {};
-  sorted.moved = {};
   list_fans(progress);
-  return std::move(sorted.taken);
+  return std::move(sorted.moved);
 }
 
 void Tin::list_fans(const Progress& progress) {

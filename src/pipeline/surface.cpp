@@ -297,8 +297,10 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t>
   }
   RenumberedTin renumbered_tin = renumber(std::move(built.tin), number, progress);
   built.tin = std::move(renumbered_tin.tin);
-  built.orders.reserve(orders.size());
-  for (const TriangleId source : renumbered_tin.source) built.orders.push_back(orders[source.index()]);
+  built.orders.resize(orders.size());
+  for (std::size_t t = 0; t < orders.size(); ++t) {
+    built.orders[renumbered_tin.place[t].index()] = orders[t];
+  }
   built.written = renumbered<Point2>(built.written, number);
   built.vertex_source = renumbered<std::uint8_t>(built.vertex_source, number);
   if (!outcome.pits_before.empty())

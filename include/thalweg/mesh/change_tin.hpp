@@ -17,7 +17,7 @@ Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
 
 struct RenumberedTin {
   Tin tin;
-  std::vector<TriangleId> source;  ///< for each triangle: which one it was
+  std::vector<TriangleId> place;  ///< for each triangle of the given TIN: which one it is now
 };
 
 /// The TIN where vertex v has the id number[v]; a TIN that is moved in gives its memory. Throws:

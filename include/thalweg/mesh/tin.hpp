@@ -123,7 +123,7 @@ class Tin {
  private:
   friend Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
   friend struct RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress& progress);
-  /// As the constructor from linked triangles; returns for each triangle what its first halfedge was.
+  /// As the constructor from linked triangles; returns for each given triangle what its first halfedge is now.
   std::vector<HalfedgeId> take(LinkedTriangles linked, const Progress& progress);
   void list_fans(const Progress& progress);
   void link_halfedges();
