@@ -11,6 +11,7 @@
 //    That equals dropping all that is outside first, because no empty circle has to heed what is behind a
 //    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
 //    them.
+#include "base/parallel.hpp"
 #include "drawing.hpp"
 #include "heights.hpp"
 #include "lakes.hpp"
@@ -38,6 +39,9 @@
 namespace thalweg {
 
 namespace {
+
+// Vertices that a thread takes at once.
+constexpr std::size_t kBlock = 8192;
 
 std::vector<std::uint32_t> lines_to_draw(const Survey& survey, bool (*wanted)(const SurveyLine&)) {
   std::vector<std::uint32_t> lines;
@@ -144,7 +148,9 @@ void sort_along_curve(Plan& plan, const Progress& progress) {
   const std::vector<std::uint32_t> order = hilbert_order(plan.xy, progress);
   const auto sorted = [&](const auto& values) {
     auto moved = values;
-    for (std::size_t v = 0; v < order.size(); ++v) moved[v] = values[order[v]];
+    for_each_block(order.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) moved[v] = values[order[v]];
+    });
     return moved;
   };
   plan.xy = sorted(plan.xy);

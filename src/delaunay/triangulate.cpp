@@ -43,8 +43,8 @@ LinkedTriangles finite_cells(std::span<const Cell> cells, std::uint32_t infinity
         finite.corners[place[c].index()][corner] = VertexId{cells[c].vertex[corner]};
         const std::uint32_t across = cells[c].neighbour[before(corner)];
         const TriangleId twin = place[cell_of(across)];
-        if (!twin.valid()) continue;
-        finite.twins[Tin::halfedge(place[c], corner).index()] = Tin::halfedge(twin, after(corner_of(across)));
+        finite.twins[Tin::halfedge(place[c], corner).index()] =
+            twin.valid() ? Tin::halfedge(twin, after(corner_of(across))) : HalfedgeId{};
       }
     }
   });
@@ -78,8 +78,10 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Ve
     }
   }
   result.triangles = finite_cells(cells, at.infinity());
-  result.triangles.number.reserve(order.size());
-  for (const std::uint32_t v : order) result.triangles.number.emplace_back(v);
+  if (!std::is_sorted(order.begin(), order.end())) {
+    result.triangles.number.reserve(order.size());
+    for (const std::uint32_t v : order) result.triangles.number.emplace_back(v);
+  }
   return result;
 }
 
@@ -131,7 +133,8 @@ Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
   }
   progress.advance(1);
   if (result.triangles.twins.empty()) {
-    return {std::move(points), std::move(heights), std::move(result.triangles.corners), constraints};
+    const RawVector<Triangle>& corners = result.triangles.corners;
+    return {std::move(points), std::move(heights), {corners.begin(), corners.end()}, constraints};
   }
   return {std::move(points), std::move(heights), std::move(result.triangles), constraints, progress};
 }

@@ -86,11 +86,11 @@ RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress
   tin.points_ = {};
   tin.heights_ = {};
   if (!any_constraint(tin.kinds_)) tin.kinds_ = {};
-  const std::vector<HalfedgeId> moved = renumbered.take({.corners = std::move(tin.triangles_),
-                                                         .twins = std::move(tin.twins_),
-                                                         .kinds = std::move(tin.kinds_),
-                                                         .number = {number.begin(), number.end()}},
-                                                        progress);
+  const RawVector<HalfedgeId> moved = renumbered.take({.corners = std::move(tin.triangles_),
+                                                       .twins = std::move(tin.twins_),
+                                                       .kinds = std::move(tin.kinds_),
+                                                       .number = {number.begin(), number.end()}},
+                                                      progress);
   result.place.resize(moved.size());
   std::ranges::transform(moved, result.place.begin(), &Tin::triangle_of);
   return result;

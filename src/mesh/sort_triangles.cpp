@@ -5,7 +5,6 @@
 // 2. Each bucket, a part of one fan, is sorted by the other corners.
 #include "sort_triangles.hpp"
 
-#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ struct Entry {
 };
 
 struct Buckets {
-  LargeVector<Entry> entries;
+  RawVector<Entry> entries;
   std::vector<std::uint32_t> end;  ///< for each id: where its bucket ends
   [[nodiscard]] std::size_t begin_of(std::size_t v) const { return v == 0 ? 0 : end[v - 1]; }
 };
@@ -41,7 +40,7 @@ std::size_t smallest(VertexId a, VertexId b, VertexId c) {
 template <class Rename>
 Buckets fill_buckets(std::span<const Triangle> corners, std::size_t vertex_count, const Progress& progress,
                      const Rename& renamed) {
-  Buckets buckets{.entries = LargeVector<Entry>(corners.size()),
+  Buckets buckets{.entries = RawVector<Entry>(corners.size()),
                   .end = std::vector<std::uint32_t>(vertex_count + 1, 0)};
   const auto in_ranges = [&](const auto& body) {
     for_each_range(vertex_count, progress, [&](std::size_t begin, std::size_t end) {

@@ -6,13 +6,12 @@
 #include <thalweg/mesh/tin.hpp>
 
 #include <span>
-#include <vector>
 
 namespace thalweg {
 
 struct SortedTriangles {
-  std::vector<Triangle> triangles;
-  std::vector<HalfedgeId> moved;  ///< for each old triangle: what its first halfedge is now
+  RawVector<Triangle> triangles;
+  RawVector<HalfedgeId> moved;  ///< for each old triangle: what its first halfedge is now
 
   /// What an old halfedge is now.
   [[nodiscard]] HalfedgeId now(HalfedgeId old) const {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -50,7 +51,9 @@ void check_heights(std::span<const double> heights, std::span<const Point2> poin
 
 Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
          std::span<const ConstraintEdge> constraints)
-    : points_(std::move(points)), heights_(std::move(heights)), triangles_(std::move(triangles)) {
+    : points_(std::move(points)),
+      heights_(std::move(heights)),
+      triangles_(triangles.begin(), triangles.end()) {
   check_heights(heights_, points_);
   for (const Triangle& t : triangles_) check_corners(t, points_.size());
   triangles_ = sort_triangles(triangles_, {}, points_.size(), Progress()).triangles;
@@ -68,7 +71,7 @@ Tin::Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangle
   mark_constraints(constraints);
 }
 
-std::vector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress) {
+RawVector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress) {
   SortedTriangles sorted = sort_triangles(linked.corners, linked.number, points_.size(), progress);
   triangles_ = std::move(sorted.triangles);
   linked.corners = {};
@@ -81,9 +84,9 @@ std::vector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progre
     for (std::size_t given = 3 * begin; given < 3 * end; ++given) {
       const HalfedgeId twin = linked.twins[given];
       const std::size_t h = sorted.now(HalfedgeId{given}).index();
-      if (twin.valid()) twins_[h] = sorted.now(twin);
+      twins_[h] = twin.valid() ? sorted.now(twin) : HalfedgeId{};
       on_rim += twin.valid() ? 0 : 1;
-      if (!linked.kinds.empty()) kinds_[h] = linked.kinds[given];
+      kinds_[h] = linked.kinds.empty() ? EdgeKind::None : linked.kinds[given];
     }
     rim += on_rim;
   });
@@ -216,12 +219,19 @@ std::vector<bool> Tin::rim_vertices() const {
 }
 
 std::vector<ConstraintEdge> Tin::constraint_edges() const {
+  // Most stretches have none, and are passed over without a look at each.
+  constexpr std::size_t kStretch = 64;
   std::vector<ConstraintEdge> edges;
-  for (std::size_t i = 0; i < halfedge_count(); ++i) {
-    const HalfedgeId h{i};
-    if (!constrained(h) || !represents_edge(h)) continue;
-    const auto [low, high] = std::minmax({origin(h), target(h)});
-    edges.push_back({low, high, kind(h)});
+  for (std::size_t begin = 0; begin < kinds_.size(); begin += kStretch) {
+    const std::size_t end = std::min(begin + kStretch, kinds_.size());
+    const auto any = std::accumulate(kinds_.begin() + begin, kinds_.begin() + end, EdgeKind::None,
+                                     [](EdgeKind a, EdgeKind b) { return a | b; });
+    for (std::size_t i = begin; i < end && any != EdgeKind::None; ++i) {
+      const HalfedgeId h{i};
+      if (!constrained(h) || !represents_edge(h)) continue;
+      const auto [low, high] = std::minmax({origin(h), target(h)});
+      edges.push_back({low, high, kind(h)});
+    }
   }
   std::sort(edges.begin(), edges.end(), [](const ConstraintEdge& a, const ConstraintEdge& b) {
     return std::pair(a.a, a.b) < std::pair(b.a, b.b);

@@ -6,6 +6,7 @@
 // 3. The outcome gets the ids of the outputs; all files are written aside and renamed together.
 #include "pipeline/surface.hpp"
 
+#include "base/parallel.hpp"
 #include "pipeline/choose_diagonals.hpp"
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/digest.hpp"
@@ -26,6 +27,7 @@
 #include <thalweg/terrain/statistics.hpp>
 
 #include <sys/resource.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -73,10 +75,15 @@ RunOutputs::RunOutputs(const OutputConfig& config) {
 
 namespace {
 
+// Elements that a thread takes at once.
+constexpr std::size_t kBlock = 8192;
+
 template <class Value>
 std::vector<Value> renumbered(std::span<const Value> values, std::span<const VertexId> number) {
   std::vector<Value> moved(values.size());
-  for (std::size_t v = 0; v < values.size(); ++v) moved[number[v].index()] = values[v];
+  for_each_block(values.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) moved[number[v].index()] = values[v];
+  });
   return moved;
 }
 
@@ -196,7 +203,7 @@ std::vector<std::uint8_t> describe_delaunay(const Labelled& labelled, const Terr
                                             const RunContext& run, Report& report) {
   const PitSummary pits = find_pits(labelled.delaunay);
   report.pits_delaunay = describe_pits(pits);
-  report.tin.angle_histogram_delaunay = measure(labelled.delaunay, run.plane.scale()).angle_histogram;
+  report.tin.angle_histogram_delaunay = measure_angles(labelled.delaunay, run.plane.scale());
   if (draws_water(labelled.delaunay)) {
     report.consistency = {consistency_of(labelled.delaunay, terrain, run), {}};
   }
@@ -270,11 +277,13 @@ struct Outcome {
 
 std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<VertexId, 2>> new_diagonals) {
   std::vector<std::uint16_t> orders(tin.triangle_count(), 0);
-  for (const auto& [a, b] : new_diagonals) {
-    for (const HalfedgeId h : {tin.find_halfedge(a, b), tin.find_halfedge(b, a)}) {
-      orders[Tin::triangle_of(h).index()] = 1;
+  for_each_block(new_diagonals.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    for (const auto& [a, b] : new_diagonals.subspan(begin, end - begin)) {
+      for (const HalfedgeId h : {tin.find_halfedge(a, b), tin.find_halfedge(b, a)}) {
+        orders[Tin::triangle_of(h).index()] = 1;  // no two diagonals share a triangle
+      }
     }
-  }
+  });
   return orders;
 }
 
@@ -309,7 +318,7 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t>
   for (auto& [a, b] : outcome.new_diagonals) {
     std::tie(a, b) = std::minmax(number[a.index()], number[b.index()]);
   }
-  std::sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
+  tbb::parallel_sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
   return outcome;
 }
 

@@ -14,7 +14,10 @@
 #include <thalweg/terrain/statistics.hpp>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -23,6 +26,9 @@
 namespace thalweg {
 
 namespace {
+
+// Triangles that a thread takes at once.
+constexpr std::size_t kBlock = 8192;
 
 struct Figures {
   DoubleDouble area;
@@ -66,49 +72,72 @@ std::size_t count_steps(double tangent) {
   return steps;
 }
 
-// Clockwise from north, 0 to 7; 8 where the surface is level. (x, y) points downhill.
+// Clockwise from north, 0 to 7; 8 where the surface is level. (x, y) points downhill. What is to be told of a
+// terrain's triangles is not to be foreseen, so here and below no branch depends on it.
 std::size_t sector(double x, double y) {
-  if (x == 0 && y == 0) return 8;
-  if (std::abs(x) <= kTangentOfHalfSector * std::abs(y)) return y > 0 ? 0 : 4;
-  if (std::abs(y) <= kTangentOfHalfSector * std::abs(x)) return x > 0 ? 2 : 6;
-  return x > 0 ? (y > 0 ? 1 : 3) : (y > 0 ? 7 : 5);
+  constexpr std::array<std::uint8_t, 4> kNorthOrSouth{4, 4, 0, 0}, kEastOrWest{6, 2, 6, 2},
+      kBetween{5, 3, 7, 1};
+  const std::size_t quarter = (x > 0 ? 1 : 0) + (y > 0 ? 2 : 0);
+  const std::array<std::size_t, 4> sectors{kBetween[quarter], kNorthOrSouth[quarter], kEastOrWest[quarter],
+                                           8};
+  const bool steep = std::abs(x) <= kTangentOfHalfSector * std::abs(y);
+  const bool shallow = std::abs(y) <= kTangentOfHalfSector * std::abs(x);
+  return sectors[(steep ? 1 : 0) + (shallow ? 2 : 0)];  // both only where both are zero
+}
+
+// The index of the least of three under `less`, the first of equal ones.
+template <class Value, class Less>
+std::size_t least_of(const std::array<Value, 3>& values, const Less& less) {
+  const std::size_t first = less(values[1], values[0]) ? 1 : 0;
+  return less(values[2], values[first]) ? 2 : first;
+}
+
+constexpr std::array<std::size_t, 5> kCorner{0, 1, 2, 0, 1};
+
+/// A triangle from its lexicographically smallest corner on.
+struct Metric {
+  std::array<Vector3, 3> side;  ///< in metres: from corner 0 to 1, 1 to 2, 2 to 0
+  std::array<double, 3> z;      ///< of the corners, as they are in the TIN
+};
+
+Metric metric(const Tin& tin, const Triangle& t, const MetricScale& scale) {
+  const std::array<Point2, 3> at{tin.point(t[0]), tin.point(t[1]), tin.point(t[2])};
+  const std::size_t first = least_of(at, [](const Point2& a, const Point2& b) {
+    return ((a.x < b.x ? 1U : 0U) | ((a.x == b.x ? 1U : 0U) & (a.y < b.y ? 1U : 0U))) != 0;
+  });
+  std::array<Vector3, 3> corner;
+  Metric found;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t at_i = kCorner[first + i];
+    found.z[i] = tin.height(t[at_i]);
+    corner[i] = {at[at_i].x, at[at_i].y, found.z[i]};
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 s = difference(corner[kCorner[i + 1]], corner[i]);
+    found.side[i] = {s.x * scale.horizontal_metres_per_unit, s.y * scale.horizontal_metres_per_unit,
+                     s.z * scale.vertical_metres_per_unit};
+  }
+  return found;
 }
 
 // The smallest angle in the plane, as its tangent: it lies opposite of the shortest side.
 double smallest_tangent(const std::array<Vector3, 3>& side, double doubled_area) {
-  std::size_t shortest = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (dot(side[i], side[i]) < dot(side[shortest], side[shortest])) shortest = i;
-  }
-  const double along = -dot(side[(shortest + 1) % 3], side[(shortest + 2) % 3]);
-  return doubled_area / along;
+  const std::size_t shortest =
+      least_of(side, [](const Vector3& a, const Vector3& b) { return dot(a, a) < dot(b, b); });
+  return doubled_area / -dot(side[kCorner[shortest + 1]], side[kCorner[shortest + 2]]);
 }
 
 void add_triangle(const Tin& tin, const Triangle& t, const MetricScale& scale, Figures& figures) {
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (tin.point(t[i]) < tin.point(t[first])) first = i;
-  }
-  std::array<Vector3, 3> corner;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const VertexId v = t[(first + i) % 3];
-    const double z = tin.height(v);
-    figures.z_min = std::min(figures.z_min, z);
-    figures.z_max = std::max(figures.z_max, z);
-    corner[i] = {tin.point(v).x, tin.point(v).y, z};
-  }
-  std::array<Vector3, 3> side{difference(corner[1], corner[0]), difference(corner[2], corner[1]),
-                              difference(corner[0], corner[2])};
-  for (Vector3& s : side) {
-    s = {s.x * scale.horizontal_metres_per_unit, s.y * scale.horizontal_metres_per_unit,
-         s.z * scale.vertical_metres_per_unit};
-  }
+  const auto [side, z] = metric(tin, t, scale);
+  const auto [lowest, highest] = std::minmax({z[0], z[1], z[2]});
+  figures.z_min = std::min(figures.z_min, lowest);
+  figures.z_max = std::max(figures.z_max, highest);
   const Vector3 up = {side[2].y * side[0].z - side[2].z * side[0].y,
                       side[2].z * side[0].x - side[2].x * side[0].z, cross(side[2], side[0])};
   const double horizontal = std::sqrt(up.x * up.x + up.y * up.y);
   figures.area.add(up.z / 2);
   figures.surface_area.add(std::sqrt(up.x * up.x + up.y * up.y + up.z * up.z) / 2);
-  figures.flat += corner[0].z == corner[1].z && corner[1].z == corner[2].z ? 1 : 0;
+  figures.flat += lowest == highest ? 1 : 0;
   const double tangent = smallest_tangent(side, up.z);
   figures.smallest_tangent = std::min(figures.smallest_tangent, tangent);
   ++figures.angles[count_steps<5>(tangent)];
@@ -164,10 +193,22 @@ void measure_rim(const Tin& tin, TinStatistics& statistics) {
 
 }  // namespace
 
+std::array<std::size_t, 6> measure_angles(const Tin& tin, const MetricScale& scale) {
+  std::array<std::atomic<std::size_t>, 6> angles{};
+  for_each_block(tin.triangle_count(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    std::array<std::size_t, 6> counts{};
+    for (const Triangle& t : tin.triangles().subspan(begin, end - begin)) {
+      const std::array<Vector3, 3> side = metric(tin, t, scale).side;
+      ++counts[count_steps<5>(smallest_tangent(side, cross(side[2], side[0])))];
+    }
+    for (std::size_t i = 0; i < counts.size(); ++i) angles[i] += counts[i];
+  });
+  return {angles[0], angles[1], angles[2], angles[3], angles[4], angles[5]};
+}
+
 TinStatistics measure(const Tin& tin, const MetricScale& scale) {
   TinStatistics statistics;
   if (tin.triangle_count() == 0) return statistics;
-  constexpr std::size_t kBlock = 8192;
   std::vector<Figures> blocks((tin.triangle_count() + kBlock - 1) / kBlock);
   for_each_block(tin.triangle_count(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
     Figures figures;

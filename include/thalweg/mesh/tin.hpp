@@ -4,6 +4,7 @@
 
 #include <thalweg/base/id.hpp>
 #include <thalweg/base/progress.hpp>
+#include <thalweg/base/raw_vector.hpp>
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/mesh/edge_kind.hpp>
 
@@ -25,10 +26,10 @@ struct ConstraintEdge {
 
 /// Triangles that know their neighbours, in any order, each with any corner first.
 struct LinkedTriangles {
-  std::vector<Triangle> corners;  ///< counter-clockwise
-  std::vector<HalfedgeId> twins;  ///< for each halfedge the one on the other side; invalid on the rim
-  std::vector<EdgeKind> kinds;    ///< for each halfedge; empty: no constraint edge
-  std::vector<VertexId> number;   ///< for each vertex its id in the TIN; empty: the same
+  RawVector<Triangle> corners;   ///< counter-clockwise
+  RawVector<HalfedgeId> twins;   ///< for each halfedge the one on the other side; invalid on the rim
+  RawVector<EdgeKind> kinds;     ///< for each halfedge; empty: no constraint edge
+  std::vector<VertexId> number;  ///< for each vertex its id in the TIN; empty: the same
 };
 
 /// A TIN as plain arrays that others own, sound or not; what is not at hand stays empty.
@@ -123,19 +124,20 @@ class Tin {
  private:
   friend Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
   friend struct RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress& progress);
-  /// As the constructor from linked triangles; returns for each given triangle what its first halfedge is now.
-  std::vector<HalfedgeId> take(LinkedTriangles linked, const Progress& progress);
+  /// As the constructor from linked triangles; returns for each given triangle what its first halfedge is
+  /// now.
+  RawVector<HalfedgeId> take(LinkedTriangles linked, const Progress& progress);
   void list_fans(const Progress& progress);
   void link_halfedges();
   void mark_constraints(std::span<const ConstraintEdge> constraints);
 
   std::vector<Point2> points_;
   std::vector<double> heights_;
-  std::vector<Triangle> triangles_;
-  std::vector<HalfedgeId> twins_;
-  std::vector<EdgeKind> kinds_;
+  RawVector<Triangle> triangles_;
+  RawVector<HalfedgeId> twins_;
+  RawVector<EdgeKind> kinds_;
   std::vector<std::uint32_t> first_outgoing_ = {0};
-  std::vector<HalfedgeId> outgoing_;
+  RawVector<HalfedgeId> outgoing_;
   std::size_t edge_count_ = 0;
 };
 

@@ -41,4 +41,7 @@ struct TinStatistics {
 /// precision of a double. Complexity: linear, plus r log r for r rim vertices; runs on all threads.
 TinStatistics measure(const Tin& tin, const MetricScale& scale = {});
 
+/// Its angle histogram alone.
+std::array<std::size_t, 6> measure_angles(const Tin& tin, const MetricScale& scale = {});
+
 }  // namespace thalweg
