@@ -18,11 +18,13 @@
 #include "provenance.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/base/raw_vector.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -102,24 +104,43 @@ class Window {
   std::size_t oldest_ = 0;
 };
 
-// For each index of `sorted` the index of its representative is set; the representatives are returned.
-std::vector<Placed> merge_in_order(std::span<const Placed> sorted, double snap,
-                                   std::vector<std::uint32_t>& representative) {
+// For each index of `sorted` the index of its representative is set: the first of those within reach.
+// Returns the representatives.
+std::vector<Placed> merge_within(std::span<const Placed> sorted, double snap,
+                                 std::vector<std::uint32_t>& representative) {
   std::vector<Placed> kept;
   Window window(snap);
   for (const Placed& p : sorted) {
-    std::optional<Placed> near;
-    if (snap > 0) {
-      window.drop_below(p.xy.x - snap);
-      near = window.best_near(p.xy, std::less<>());
-    } else if (!kept.empty() && kept.back().xy == p.xy) {
-      near = kept.back();
-    }
+    window.drop_below(p.xy.x - snap);
+    const std::optional<Placed> near = window.best_near(p.xy, std::less<>());
     representative[p.index] = near ? near->index : p.index;
     if (near) continue;
     kept.push_back(p);
-    if (snap > 0) window.add(p);
+    window.add(p);
   }
+  return kept;
+}
+
+// The same for equal positions alone.
+void merge_equal(std::span<const Placed> sorted, std::vector<std::uint32_t>& representative,
+                 const Progress& progress) {
+  for_each_block(sorted.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i > 0 && sorted[i - 1].xy == sorted[i].xy) continue;  // it belongs to one before
+      for (std::size_t j = i; j < sorted.size() && sorted[j].xy == sorted[i].xy; ++j) {
+        representative[sorted[j].index] = sorted[i].index;
+      }
+    }
+  });
+}
+
+std::vector<Placed> merge_in_order(std::span<const Placed> sorted, double snap,
+                                   std::vector<std::uint32_t>& representative, const Progress& progress) {
+  if (snap > 0) return merge_within(sorted, snap, representative);
+  merge_equal(sorted, representative, progress);
+  std::vector<Placed> kept;
+  std::ranges::copy_if(sorted, std::back_inserter(kept),
+                       [&](const Placed& p) { return representative[p.index] == p.index; });
   return kept;
 }
 
@@ -147,8 +168,8 @@ std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const 
 }
 
 // The positions from `first` on, sorted.
-std::vector<Placed> sort_places(std::span<const Point2> positions, std::size_t first,
-                                const Progress& progress) {
+RawVector<Placed> sort_places(std::span<const Point2> positions, std::size_t first,
+                              const Progress& progress) {
   const std::size_t count = positions.size();
   if (count == 0) return {};
   const auto [least, most] = std::minmax_element(positions.begin(), positions.end());
@@ -157,7 +178,7 @@ std::vector<Placed> sort_places(std::span<const Point2> positions, std::size_t f
   std::vector<std::uint32_t> bucket(count);
   for (std::size_t i = 0; i < count; ++i) bucket[i] = bucket_of(positions[i].x);
   Buckets buckets = sort_into_buckets(bucket, bucket_count);
-  std::vector<Placed> placed(count);
+  RawVector<Placed> placed(count);
   for_each_block(buckets.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto from = placed.begin() + buckets.first[b];
@@ -175,11 +196,16 @@ std::vector<Placed> sort_places(std::span<const Point2> positions, std::size_t f
 std::vector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
                                                 double snap, double line_snap, const Progress& progress) {
   std::vector<std::uint32_t> representative(all.size());
-  const std::vector<Placed> points =
-      merge_in_order(sort_places(all.first(point_count), 0, progress), snap, representative);
+  const RawVector<Placed> sorted = sort_places(all.first(point_count), 0, progress);
+  if (point_count == all.size() && !(snap > 0)) {
+    merge_equal(sorted, representative, progress);
+    return representative;
+  }
+  const std::vector<Placed> points = merge_in_order(sorted, snap, representative, progress);
   if (point_count == all.size()) return representative;
-  const std::vector<Placed> vertices = sort_places(all.subspan(point_count), point_count, progress);
-  merge_in_order(join_points(vertices, points, line_snap, representative), line_snap, representative);
+  const RawVector<Placed> vertices = sort_places(all.subspan(point_count), point_count, progress);
+  merge_in_order(join_points(vertices, points, line_snap, representative), line_snap, representative,
+                 progress);
   return representative;
 }
 
@@ -211,6 +237,8 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   };
   // Number the groups by their first members; `number` is indexed by representatives.
   constexpr std::uint32_t kNone = VertexId::kInvalid;
+  merged.xy.reserve(all.size());
+  merged.origins.reserve(all.size());
   std::vector<std::uint32_t> number(all.size(), kNone);
   std::vector<std::uint32_t> vertex_of(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -1,10 +1,12 @@
 // Points from tables of text.
 //
 // 1. The first block of rows tells the format and, with a condition, the types of the columns.
-// 2. Each row is parsed in place in its block; rows that do not parse are passed over (blank, comment), or
-// explained. The CRS stands in a .prj file of the same name, where there is one.
+// 2. The rows of a block are parsed in place, on all threads, and taken in order; those that do not parse are
+//    passed over (blank, comment), or explained. The CRS stands in a .prj file of the same name, where there
+//    is one.
 #include "io/text_points.hpp"
 
+#include "base/parallel.hpp"
 #include "io/gdal_session.hpp"
 #include "io/point_collector.hpp"
 #include "io/row_filter.hpp"
@@ -26,6 +28,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -121,35 +124,56 @@ class TextPoints : public SourceReader {
     }
   }
 
+  struct Row {
+    std::string_view text;
+    std::optional<RowParser::Coordinates> xyz;  ///< none: nothing was looked at but whether it parses
+  };
+
   void read_block(std::string_view block, const RowParser& parser, PointCollector& points) {
-    const char* p = block.data();
-    const char* const end = p + block.size();
-    while (p != end) {
-      const char* const row_end =
-          static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
-      const std::string_view row(p, static_cast<std::size_t>(row_end - p));
-      p = row_end + 1;
-      ++row_number_;
-      if (rows_to_skip_ > 0) {
-        --rows_to_skip_;
-        continue;
+    const std::vector<std::string_view> parts = split_at_rows(block);
+    rows_.resize(parts.size());
+    for_each_block(parts.size(), 1, Progress(), [&](std::size_t part, std::size_t) {
+      rows_[part].clear();
+      for (std::string_view rest = parts[part]; !rest.empty();) {
+        const std::string_view row = rest.substr(0, rest.find('\n'));
+        rest.remove_prefix(row.size() + 1);
+        rows_[part].push_back({row, parser.parse(row.data(), row.data() + row.size())});
       }
-      std::optional<RowParser::Coordinates> xyz = parser.parse(row.data(), row_end);
-      if (!xyz) {
-        if (is_passed_over(row)) continue;
-        if (filter_ && !filter_->accepts(row, row_number_)) continue;
-        xyz = parser.parse_or_explain(row, row_number_);
-      } else if (filter_ && !filter_->accepts(row, row_number_)) {
-        continue;
-      }
-      points.add({(*xyz)[0], (*xyz)[1]}, (*xyz)[2]);
+    });
+    for (const std::vector<Row>& part : rows_) {
+      for (const Row& row : part) take_row(row, parser, points);
     }
+  }
+
+  /// Parts of whole rows, large enough to be worth a task of their own.
+  static std::vector<std::string_view> split_at_rows(std::string_view block) {
+    constexpr std::size_t kPart = std::size_t{64} << 10U;
+    std::vector<std::string_view> parts;
+    while (!block.empty()) {
+      const std::size_t size = block.size() > kPart ? block.find('\n', kPart - 1) + 1 : block.size();
+      parts.push_back(block.substr(0, size));
+      block.remove_prefix(size);
+    }
+    return parts;
+  }
+
+  void take_row(const Row& row, const RowParser& parser, PointCollector& points) {
+    ++row_number_;
+    if (rows_to_skip_ > 0) {
+      --rows_to_skip_;
+      return;
+    }
+    if (!row.xyz && is_passed_over(row.text)) return;
+    if (filter_ && !filter_->accepts(row.text, row_number_)) return;
+    const auto [x, y, z] = row.xyz ? *row.xyz : parser.parse_or_explain(row.text, row_number_);
+    points.add({x, y}, z);
   }
 
   TextBlocks blocks_;
   std::optional<RowFilter> filter_;
   std::size_t rows_to_skip_ = 0;
   std::size_t row_number_ = 0;
+  std::vector<std::vector<Row>> rows_;  ///< of the parts of a block
 };
 
 }  // namespace

@@ -54,9 +54,6 @@ constexpr std::array<double, 8> kTangent{0.17632698070846498, 0.3639702342662023
                                          2.74747741945462228, 5.67128181961770953};
 constexpr double kTangentOfHalfSector = 0.41421356237309505;  // 22.5 degrees
 
-Vector3 difference(const Vector3& a, const Vector3& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
 double cross(const Vector3& a, const Vector3& b) {
   return a.x * b.y - a.y * b.x;
 }
@@ -85,60 +82,51 @@ std::size_t sector(double x, double y) {
   return sectors[(steep ? 1 : 0) + (shallow ? 2 : 0)];  // both only where both are zero
 }
 
-// The index of the least of three under `less`, the first of equal ones.
-template <class Value, class Less>
-std::size_t least_of(const std::array<Value, 3>& values, const Less& less) {
-  const std::size_t first = less(values[1], values[0]) ? 1 : 0;
-  return less(values[2], values[first]) ? 2 : first;
-}
-
-constexpr std::array<std::size_t, 5> kCorner{0, 1, 2, 0, 1};
-
-/// A triangle from its lexicographically smallest corner on.
+/// A triangle from its lexicographically smallest corner on, in metres. No arrays: what is stored in parts
+/// and loaded whole costs more than all of the arithmetic.
 struct Metric {
-  std::array<Vector3, 3> side;  ///< in metres: from corner 0 to 1, 1 to 2, 2 to 0
-  std::array<double, 3> z;      ///< of the corners, as they are in the TIN
+  Vector3 first, second, third;       ///< sides: from corner 0 to 1, 1 to 2, 2 to 0
+  double z_first, z_second, z_third;  ///< heights of the corners, as they are in the TIN
 };
 
-Metric metric(const Tin& tin, const Triangle& t, const MetricScale& scale) {
-  const std::array<Point2, 3> at{tin.point(t[0]), tin.point(t[1]), tin.point(t[2])};
-  const std::size_t first = least_of(at, [](const Point2& a, const Point2& b) {
-    return ((a.x < b.x ? 1U : 0U) | ((a.x == b.x ? 1U : 0U) & (a.y < b.y ? 1U : 0U))) != 0;
-  });
-  std::array<Vector3, 3> corner;
-  Metric found;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t at_i = kCorner[first + i];
-    found.z[i] = tin.height(t[at_i]);
-    corner[i] = {at[at_i].x, at[at_i].y, found.z[i]};
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector3 s = difference(corner[kCorner[i + 1]], corner[i]);
-    found.side[i] = {s.x * scale.horizontal_metres_per_unit, s.y * scale.horizontal_metres_per_unit,
-                     s.z * scale.vertical_metres_per_unit};
-  }
-  return found;
+bool comes_first(Point2 a, Point2 b) {
+  return ((a.x < b.x ? 1U : 0U) | ((a.x == b.x ? 1U : 0U) & (a.y < b.y ? 1U : 0U))) != 0;
 }
 
-// The smallest angle in the plane, as its tangent: it lies opposite of the shortest side.
-double smallest_tangent(const std::array<Vector3, 3>& side, double doubled_area) {
-  const std::size_t shortest =
-      least_of(side, [](const Vector3& a, const Vector3& b) { return dot(a, a) < dot(b, b); });
-  return doubled_area / -dot(side[kCorner[shortest + 1]], side[kCorner[shortest + 2]]);
+[[gnu::always_inline]] inline Metric metric(const Tin& tin, const Triangle& t, const MetricScale& scale) {
+  constexpr std::array<std::size_t, 5> kCorner{0, 1, 2, 0, 1};
+  std::size_t start = comes_first(tin.point(t[1]), tin.point(t[0])) ? 1 : 0;
+  start = comes_first(tin.point(t[2]), tin.point(t[start])) ? 2 : start;
+  const VertexId u = t[start], v = t[kCorner[start + 1]], w = t[kCorner[start + 2]];
+  const Point2 at_u = tin.point(u), at_v = tin.point(v), at_w = tin.point(w);
+  const double z_u = tin.height(u), z_v = tin.height(v), z_w = tin.height(w);
+  const double flat = scale.horizontal_metres_per_unit, up = scale.vertical_metres_per_unit;
+  return {{(at_v.x - at_u.x) * flat, (at_v.y - at_u.y) * flat, (z_v - z_u) * up},
+          {(at_w.x - at_v.x) * flat, (at_w.y - at_v.y) * flat, (z_w - z_v) * up},
+          {(at_u.x - at_w.x) * flat, (at_u.y - at_w.y) * flat, (z_u - z_w) * up},
+          z_u,
+          z_v,
+          z_w};
+}
+
+// The tangent of the smallest angle in the plane, which has the largest cotangent.
+double smallest_tangent(const Metric& t, double doubled_area) {
+  return doubled_area / std::max({-dot(t.second, t.third), -dot(t.third, t.first), -dot(t.first, t.second)});
 }
 
 void add_triangle(const Tin& tin, const Triangle& t, const MetricScale& scale, Figures& figures) {
-  const auto [side, z] = metric(tin, t, scale);
-  const auto [lowest, highest] = std::minmax({z[0], z[1], z[2]});
+  const Metric m = metric(tin, t, scale);
+  const double lowest = std::min({m.z_first, m.z_second, m.z_third});
+  const double highest = std::max({m.z_first, m.z_second, m.z_third});
   figures.z_min = std::min(figures.z_min, lowest);
   figures.z_max = std::max(figures.z_max, highest);
-  const Vector3 up = {side[2].y * side[0].z - side[2].z * side[0].y,
-                      side[2].z * side[0].x - side[2].x * side[0].z, cross(side[2], side[0])};
+  const Vector3 up = {m.third.y * m.first.z - m.third.z * m.first.y,
+                      m.third.z * m.first.x - m.third.x * m.first.z, cross(m.third, m.first)};
   const double horizontal = std::sqrt(up.x * up.x + up.y * up.y);
   figures.area.add(up.z / 2);
   figures.surface_area.add(std::sqrt(up.x * up.x + up.y * up.y + up.z * up.z) / 2);
   figures.flat += lowest == highest ? 1 : 0;
-  const double tangent = smallest_tangent(side, up.z);
+  const double tangent = smallest_tangent(m, up.z);
   figures.smallest_tangent = std::min(figures.smallest_tangent, tangent);
   ++figures.angles[count_steps<5>(tangent)];
   ++figures.slopes[count_steps<8>(horizontal / up.z)];
@@ -198,8 +186,8 @@ std::array<std::size_t, 6> measure_angles(const Tin& tin, const MetricScale& sca
   for_each_block(tin.triangle_count(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
     std::array<std::size_t, 6> counts{};
     for (const Triangle& t : tin.triangles().subspan(begin, end - begin)) {
-      const std::array<Vector3, 3> side = metric(tin, t, scale).side;
-      ++counts[count_steps<5>(smallest_tangent(side, cross(side[2], side[0])))];
+      const Metric m = metric(tin, t, scale);
+      ++counts[count_steps<5>(smallest_tangent(m, cross(m.third, m.first)))];
     }
     for (std::size_t i = 0; i < counts.size(); ++i) angles[i] += counts[i];
   });
