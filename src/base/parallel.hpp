@@ -26,15 +26,20 @@ void for_each_block(std::size_t count, std::size_t block, const Progress& progre
   });
 }
 
-/// Calls `body(begin, end)` for a range a thread, in parallel; the ranges tile [0, count). For loops that
-/// read everything in order, which costs little, and write at random, each within its range. The ranges
-/// depend on the thread count: what is written must not.
-template <class Body>
-void for_each_range(std::size_t count, const Progress& progress, const Body& body) {
+/// Into how many ranges of [0, count) a loop falls that reads everything in order, which costs little, and
+/// writes at random, each thread within its range.
+inline std::size_t range_count(std::size_t count) {
   constexpr std::size_t kLeastRange = 1 << 15;
   constexpr std::size_t kMostRanges = 8;  // each reads the same
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  const std::size_t ranges = std::clamp<std::size_t>(count / kLeastRange, 1, std::min(threads, kMostRanges));
+  return std::clamp<std::size_t>(count / kLeastRange, 1, std::min(threads, kMostRanges));
+}
+
+/// Calls `body(begin, end)` for such ranges, in parallel; they tile [0, count), and depend on the thread
+/// count: what is written must not.
+template <class Body>
+void for_each_range(std::size_t count, const Progress& progress, const Body& body) {
+  const std::size_t ranges = range_count(count);
   for_each_block(ranges, 1, progress,
                  [&](std::size_t i, std::size_t) { body(count * i / ranges, count * (i + 1) / ranges); });
 }

@@ -1,7 +1,7 @@
 // Sorting triangles.
 //
 // 1. Buckets by the smallest id. Each thread fills those of a range of ids, so no two write to the same
-// place.
+//    place.
 // 2. Each bucket, a part of one fan, is sorted by the other corners.
 #include "sort_triangles.hpp"
 
@@ -37,14 +37,33 @@ std::size_t smallest(VertexId a, VertexId b, VertexId c) {
   return b < a ? (c < b ? 2 : 1) : (c < a ? 2 : 0);
 }
 
+/// Limits of ranges of ids that are the smallest one of about as many triangles each: if ids are strewn, low
+/// ones are so often.
+template <class Rename>
+std::vector<std::size_t> even_limits(std::span<const Triangle> corners, std::size_t vertex_count,
+                                     const Rename& renamed) {
+  constexpr std::size_t kSample = 1024;
+  std::vector<VertexId> sample;
+  for (std::size_t t = 0; t < corners.size(); t += corners.size() / kSample + 1) {
+    sample.push_back(std::min({renamed(corners[t][0]), renamed(corners[t][1]), renamed(corners[t][2])}));
+  }
+  std::sort(sample.begin(), sample.end());
+  const std::size_t ranges = sample.empty() ? 1 : range_count(vertex_count);
+  std::vector<std::size_t> limits{0};
+  for (std::size_t i = 1; i < ranges; ++i) limits.push_back(sample[i * sample.size() / ranges].index());
+  limits.push_back(vertex_count);
+  return limits;
+}
+
 template <class Rename>
 Buckets fill_buckets(std::span<const Triangle> corners, std::size_t vertex_count, const Progress& progress,
                      const Rename& renamed) {
   Buckets buckets{.entries = RawVector<Entry>(corners.size()),
                   .end = std::vector<std::uint32_t>(vertex_count + 1, 0)};
+  const std::vector<std::size_t> limits = even_limits(corners, vertex_count, renamed);
   const auto in_ranges = [&](const auto& body) {
-    for_each_range(vertex_count, progress, [&](std::size_t begin, std::size_t end) {
-      const VertexId low{begin}, high{end};
+    for_each_block(limits.size() - 1, 1, progress, [&](std::size_t range, std::size_t) {
+      const VertexId low{limits[range]}, high{limits[range + 1]};
       for (std::size_t t = 0; t < corners.size(); ++t) {
         const VertexId a = renamed(corners[t][0]), b = renamed(corners[t][1]), c = renamed(corners[t][2]);
         const VertexId first = std::min({a, b, c});

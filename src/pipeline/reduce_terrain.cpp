@@ -65,8 +65,10 @@ std::string_view name_of(SimplifyStop stop) {
 
 Terrain without_lonely_vertices(Terrain terrain, TriangulationEngine engine, Progress& progress) {
   const Tin& ground = terrain.ground;
+  const bool whole = std::find(terrain.keep.begin(), terrain.keep.end(), false) == terrain.keep.end();
   std::vector<bool> used(ground.vertex_count(), false);
-  for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
+  for (std::size_t v = 0; v < used.size() && whole; ++v) used[v] = !ground.outgoing(VertexId{v}).empty();
+  for (std::size_t t = 0; t < ground.triangle_count() && !whole; ++t) {
     if (!terrain.keep[t]) continue;
     for (const VertexId v : ground.triangle(TriangleId{t})) used[v.index()] = true;
   }

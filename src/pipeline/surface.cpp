@@ -27,6 +27,7 @@
 #include <thalweg/terrain/statistics.hpp>
 
 #include <sys/resource.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -232,7 +233,9 @@ void flip_chosen(Labelled& labelled, const Terrain& terrain, const RunContext& r
 
 void describe_result(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
                      const PitSummary& pits, Report& report) {
-  ReportTin tin = describe_tin(labelled.tin, run.plane, terrain.written);
+  ReportTin tin;
+  tbb::parallel_invoke([&] { report.digest = digest_of(labelled.tin, terrain.written); },
+                       [&] { tin = describe_tin(labelled.tin, run.plane, terrain.written); });
   tin.dropped_rim_triangles = report.tin.dropped_rim_triangles;
   tin.vertices_left_out = report.tin.vertices_left_out;
   tin.angle_histogram_delaunay = report.tin.angle_histogram_delaunay;
@@ -242,7 +245,6 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   }
   report.tin = tin;
   report.crs = describe_plane(run.plane, run.crs);
-  report.digest = digest_of(labelled.tin, terrain.written);
   report.first_order = describe_structure(labelled.result, run.labelling);
   report.higher_order = labelled.higher_order;
   report.criteria = describe_criteria(labelled.result);
