@@ -2,13 +2,15 @@
 //
 // 1. Boxes are laid out along the Hilbert order of their centres, and eight successive ones make a node
 //    (Kamel, Faloutsos, On packing R-trees, 1993). Clusters and outliers do not hurt, as they would a grid.
-// 2. The box of a long oblique segment is mostly empty. Segments are cut into parts of equal length such that
+// 2. A query far from all boxes ends at a grid of squares, without the tree.
+// 3. The box of a long oblique segment is mostly empty. Segments are cut into parts of equal length such that
 //    no part spans more than L in both x and y; L is chosen so that n segments have at most 2 n parts, or at
 //    most 16 n where they are few.
 #include "box_tree.hpp"
 
 #include "spatial_order.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace thalweg {
@@ -26,9 +28,36 @@ double narrow_extent(const Segment& s) {
 
 }  // namespace
 
+TouchedSquares::TouchedSquares(std::span<const Box2> boxes) {
+  constexpr double kSquaresABox = 8, kMostTouchedABox = 32;
+  for (const Box2& box : boxes) {
+    box_.add({box.x_min, box.y_min});
+    box_.add({box.x_max, box.y_max});
+  }
+  const auto count = static_cast<double>(boxes.size());
+  side_ = static_cast<std::size_t>(std::sqrt(kSquaresABox * count)) + 1;
+  x_scale_ = box_.width() > 0 ? static_cast<double>(side_) / box_.width() : 0;
+  y_scale_ = box_.height() > 0 ? static_cast<double>(side_) / box_.height() : 0;
+  if (!std::isfinite(x_scale_) || !std::isfinite(y_scale_)) return;
+  touched_.assign(side_ * side_, false);
+  double touched = 0;
+  for (const Box2& box : boxes) {
+    const std::size_t first = column_of(box.x_min), last = column_of(box.x_max), last_row = row_of(box.y_max);
+    for (std::size_t row = row_of(box.y_min); row <= last_row; ++row) {
+      touched += static_cast<double>(last - first + 1);
+      if (touched > kMostTouchedABox * count) {
+        touched_.clear();
+        return;
+      }
+      std::fill(touched_.begin() + row * side_ + first, touched_.begin() + row * side_ + last + 1, true);
+    }
+  }
+}
+
 BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> items,
                  const Progress& progress) {
   if (boxes.empty()) return;
+  squares_ = TouchedSquares(boxes);
   std::vector<Point2> centres(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     centres[i] = {(boxes[i].x_min + boxes[i].x_max) / 2, (boxes[i].y_min + boxes[i].y_max) / 2};

@@ -23,7 +23,36 @@ inline Box2 box_around(Point2 p, double margin) {
   return {p.x - margin, p.y - margin, p.x + margin, p.y + margin};
 }
 
-/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 41 bytes a box.
+/// Squares of the plane, and which of them boxes touch: for queries far from all of them.
+class TouchedSquares {
+ public:
+  TouchedSquares() = default;
+  /// About eight squares a box. Touches nothing, and says so, if boxes cover too many of them.
+  explicit TouchedSquares(std::span<const Box2> boxes);
+  /// False only if no box meets the query.
+  [[nodiscard]] bool may_meet(const Box2& query) const {
+    if (touched_.empty()) return true;
+    const std::size_t column = column_of(query.x_min), row = row_of(query.y_min);
+    const std::size_t last_column = column_of(query.x_max), last_row = row_of(query.y_max);
+    if (last_column - column > 1 || last_row - row > 1) return true;
+    return touched_[row * side_ + column] || touched_[row * side_ + last_column] ||
+           touched_[last_row * side_ + column] || touched_[last_row * side_ + last_column];
+  }
+
+ private:
+  [[nodiscard]] std::size_t step(double offset, double scale) const {
+    return static_cast<std::size_t>(std::clamp(offset * scale, 0.0, static_cast<double>(side_ - 1)));
+  }
+  [[nodiscard]] std::size_t column_of(double x) const { return step(x - box_.x_min, x_scale_); }
+  [[nodiscard]] std::size_t row_of(double y) const { return step(y - box_.y_min, y_scale_); }
+
+  Box2 box_;
+  double x_scale_ = 0, y_scale_ = 0;
+  std::size_t side_ = 1;
+  std::vector<bool> touched_;
+};
+
+/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 42 bytes a box.
 class BoxTree {
  public:
   BoxTree() = default;
@@ -38,7 +67,8 @@ class BoxTree {
   /// Calls `visitor(item)` for each box that meets the query (closed), in the tree's order.
   template <class Visitor>
   void visit(const Box2& query, const Visitor& visitor) const {
-    if (!levels_.empty()) visit_range(levels_.size() - 1, 0, levels_.back().size(), query, visitor);
+    if (levels_.empty() || !squares_.may_meet(query)) return;
+    visit_range(levels_.size() - 1, 0, levels_.back().size(), query, visitor);
   }
 
  private:
@@ -61,6 +91,7 @@ class BoxTree {
 
   std::vector<std::vector<Box2>> levels_;  // from the leaves up
   std::vector<std::uint32_t> items_;
+  TouchedSquares squares_;
 };
 
 /// The tree of segments, by index; a long one is covered by several boxes, so a visitor may meet an item more
