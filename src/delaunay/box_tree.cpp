@@ -29,7 +29,7 @@ double narrow_extent(const Segment& s) {
 }  // namespace
 
 TouchedSquares::TouchedSquares(std::span<const Box2> boxes) {
-  constexpr double kSquaresABox = 8, kMostTouchedABox = 32;
+  constexpr double kSquaresABox = 64, kMostTouchedABox = 64;
   for (const Box2& box : boxes) {
     box_.add({box.x_min, box.y_min});
     box_.add({box.x_max, box.y_max});

@@ -27,7 +27,7 @@ inline Box2 box_around(Point2 p, double margin) {
 class TouchedSquares {
  public:
   TouchedSquares() = default;
-  /// About eight squares a box. Touches nothing, and says so, if boxes cover too many of them.
+  /// About 64 squares a box. Touches nothing, and says so, if boxes cover too many of them.
   explicit TouchedSquares(std::span<const Box2> boxes);
   /// False only if no box meets the query.
   [[nodiscard]] bool may_meet(const Box2& query) const {
@@ -52,7 +52,7 @@ class TouchedSquares {
   std::vector<bool> touched_;
 };
 
-/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 42 bytes a box.
+/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 49 bytes a box.
 class BoxTree {
  public:
   BoxTree() = default;
