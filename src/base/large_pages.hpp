@@ -2,19 +2,19 @@
 
 /// Memory for arrays that are visited at random: on large pages, where the system has them.
 
-#include <sys/mman.h>
-
 #include <cstddef>
-#include <memory>
-#include <new>
 #include <vector>
 
 namespace thalweg {
 
-inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
+inline constexpr std::size_t kLargePage = std::size_t{1} << 21U;
 
-/// An allocator for standard containers: arrays of a large page and more start at one, and ask for such
-/// pages. Their page tables fit the processor's cache: measured, a third less time to triangulate.
+/// Memory of a large page and more starts at one, and asks for such pages: their page tables fit the
+/// processor's cache, and fewer of them have to be made. Throws: std::bad_alloc.
+void* allocate_pages(std::size_t bytes);
+void free_pages(void* memory, std::size_t bytes);
+
+/// An allocator for standard containers. Measured: a third less time to triangulate.
 template <class T>
 struct LargePageAllocator {
   using value_type = T;
@@ -22,26 +22,9 @@ struct LargePageAllocator {
   template <class U>
   explicit LargePageAllocator(const LargePageAllocator<U>& /*other*/) {}
 
-  T* allocate(std::size_t count) {
-    if (count * sizeof(T) < kLargePage) return std::allocator<T>().allocate(count);
-    const std::size_t size = rounded(count);
-    void* memory = ::operator new (size, std::align_val_t{kLargePage});
-    madvise(memory, size, MADV_HUGEPAGE);  // advice: no harm if it is not taken
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t count) {
-    if (count * sizeof(T) < kLargePage) {
-      std::allocator<T>().deallocate(memory, count);
-    } else {
-      ::operator delete (memory, std::align_val_t{kLargePage});
-    }
-  }
+  T* allocate(std::size_t count) { return static_cast<T*>(allocate_pages(count * sizeof(T))); }
+  void deallocate(T* memory, std::size_t count) { free_pages(memory, count * sizeof(T)); }
   friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
-
- private:
-  static std::size_t rounded(std::size_t count) {
-    return (count * sizeof(T) + kLargePage - 1) / kLargePage * kLargePage;
-  }
 };
 
 template <class T>

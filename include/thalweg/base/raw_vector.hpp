@@ -4,12 +4,18 @@
 /// then share the cost of memory that is touched for the first time.
 
 #include <cstddef>
-#include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace thalweg {
+
+namespace detail {
+/// On large pages, where the system has them. Throws: std::bad_alloc.
+void* allocate_raw(std::size_t bytes);
+void free_raw(void* memory, std::size_t bytes);
+}  // namespace detail
 
 template <class T>
 struct RawAllocator {
@@ -19,8 +25,8 @@ struct RawAllocator {
   template <class U>
   explicit RawAllocator(const RawAllocator<U>& /*other*/) {}
 
-  T* allocate(std::size_t count) { return std::allocator<T>().allocate(count); }
-  void deallocate(T* memory, std::size_t count) { std::allocator<T>().deallocate(memory, count); }
+  T* allocate(std::size_t count) { return static_cast<T*>(detail::allocate_raw(count * sizeof(T))); }
+  void deallocate(T* memory, std::size_t count) { detail::free_raw(memory, count * sizeof(T)); }
   template <class U>
   void construct(U* /*place*/) {}
   template <class U, class... Arguments>
