@@ -137,6 +137,12 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
   }
 }
 
+// Orders know no heights: lines need none, and may disagree.
+void flatten(Survey& survey) {
+  std::fill(survey.points.z.begin(), survey.points.z.end(), 0.0);
+  for (SurveyLine& line : survey.lines) line.z.assign(line.xy.size(), 0.0);
+}
+
 }  // namespace
 
 OrderResult order_points(const OrderConfig& config, Progress& progress) {
@@ -153,6 +159,7 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
   const std::string picture_file = reserve(config.picture_path);
   progress.start_phase("read");
   PlaneSurvey survey = read_into_plane(config.points, config.lines, config.read, progress).survey;
+  flatten(survey.survey);
   progress.start_phase("triangulate");
   const Ground ground = build_ground(survey.survey, config.ground, progress);
   OrderResult result{.vertices = ground.tin.vertex_count(),

@@ -73,7 +73,7 @@ void add_order_command(CLI::App& app) {
   auto a = std::make_shared<OrderArguments>();
   CLI::App* command =
       app.add_subcommand("order", "constrained orders: of triangles, useful edges, quadrilaterals");
-  command->add_option("POINTS", a->points, "sources of points; x and y suffice")->required();
+  command->add_option("POINTS", a->points, "sources of points; x and y suffice, of lines too")->required();
   add_source_options(*command, a->sources, a->config.read);
   add_crossing_option(*command, a->config.ground);
   command

@@ -23,7 +23,7 @@ struct OrderResult;
 
 struct OrderConfig {
   std::vector<SourceSpec> points;  ///< x and y suffice
-  std::vector<LineSource> lines;
+  std::vector<LineSource> lines;   ///< heights play no part, and may be missing or disagree
   ReadOptions read = {.heights = HeightRule::Optional};
   GroundOptions ground = {.crossing = CrossingRule::Error};
   OrderDefinition definition = OrderDefinition::SeesOpp;
