@@ -2,7 +2,8 @@
 """The census of orders on growing input: how many useful edges and triangles of order at most k are there a point?
 
 Usage: census.py THALWEG FOLDER [--sizes N[,N...]] [--order K] [--terrain NAME POINTS LINES...]...
-Writes FOLDER/census.md (table) and FOLDER/census.svg (plot). Inputs are made here, from fixed seeds:
+Writes FOLDER/census.md (table) and FOLDER/census.svg (plot), anew after each input. Inputs are made here, from fixed
+seeds:
 
   random      uniform points, no constraint edges
   random-5    the same points; constraint edges for 5 % of the edges of a triangulation, drawn at random from the
@@ -109,7 +110,7 @@ def table(results, order):
              " | ".join(f"edges a point, k = {k}" for k in range(order + 1)) + " | unknown | " +
              " | ".join(f"triangles a point, k = {k}" for k in range(order + 1)) + " |",
              "|---" * (2 * order + 6) + "|"]
-    for scene, result in results:
+    for scene, result in sorted(results, key=lambda item: (*SCENES, item[0]).index(item[0])):
         names = []
         for row in result["census"]:
             if row["definition"] not in names:
@@ -173,15 +174,18 @@ def main():
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     results = []
-    for scene in SCENES:
-        for count in map(int, options.sizes.split(",")):
-            results.append((scene, take(options.thalweg, options.folder, scene, count, options.order)))
-            print(scene, count, "done", flush=True)
+
+    def add(name, result):
+        results.append((name, result))
+        (options.folder / "census.md").write_text(table(results, options.order))
+        (options.folder / "census.svg").write_text(plot(results, options.order))
+        print(name, result["vertices"], "done", flush=True)
+
     for name, points, *lines in options.terrain:
-        results.append((name, count_orders(options.thalweg, points, lines, options.order)))
-        print(name, "done", flush=True)
-    (options.folder / "census.md").write_text(table(results, options.order))
-    (options.folder / "census.svg").write_text(plot(results, options.order))
+        add(name, count_orders(options.thalweg, points, lines, options.order))
+    for count in map(int, options.sizes.split(",")):
+        for scene in SCENES:
+            add(scene, take(options.thalweg, options.folder, scene, count, options.order))
 
 
 if __name__ == "__main__":
