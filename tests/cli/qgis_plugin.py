@@ -215,6 +215,22 @@ def main():
         bench.algorithm("tintolayers", "more.gpkg", INPUT=tin, OUTPUT=f"{folder}/more.gpkg")
         bench.algorithm("drain", "drain.gpkg", INPUT=tin, OUTPUT=f"{folder}/drain.gpkg", SEED_SPACING=50,
                         REPORT=f"{folder}/drain.json")
+        bench.algorithm("profile", "profile.csv", INPUT=tin, LINES=f"{lines}|layername=valleys",
+                        OUTPUT=f"{folder}/profile.csv")
+        subprocess.run([binary, "convert", tin, f"{folder}/same.csv", "-q", "--profile", f"{lines}|layername=valleys"],
+                       check=True)
+        same = pathlib.Path(folder, "same.csv").read_bytes() == pathlib.Path(folder, "profile.csv").read_bytes()
+        bench.check("profile: same bytes as the command line", same, "they differ")
+        told = subprocess.run([binary, "info", tin, "-f", "json", "--volume-above=450"], check=True, capture_output=True,
+                              text=True).stdout
+        above = json.loads(told)["volumes"][0]["above_m3"]
+        _, text = bench.run(QGIS_PROCESS, "run", "thalweg:volume", f"--INPUT={tin}", "--HEIGHT=450")
+        found = re.search(r"^ABOVE:\s*(\S+)", text, re.MULTILINE)
+        bench.check("thalweg:volume above a height", found and abs(float(found.group(1)) - above) <= 1e-5 * above, text)
+        _, text = bench.run(QGIS_PROCESS, "run", "thalweg:volume", f"--INPUT={tin}", f"--REFERENCE={folder}/lake.ply")
+        bench.check("thalweg:volume between two TINs", "NET:" in text, text)
+        status, text = bench.run(QGIS_PROCESS, "run", "thalweg:volume", f"--INPUT={tin}")
+        bench.check("thalweg:volume wants a reference", status != 0 and "not both" in text, text)
         bench.algorithm("export", "tin.xml", INPUT=tin, OUTPUT=f"{folder}/tin.xml")
         status, text = bench.run(QGIS_PROCESS, "run", "thalweg:build", f"--INPUT={folder}/points.gpkg",
                                  "--OPTIMIZE=beauty", f"--OUTPUT={folder}/no.ply")

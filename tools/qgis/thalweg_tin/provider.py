@@ -9,6 +9,7 @@ from qgis.PyQt.QtGui import QIcon
 from .build import BuildTin
 from .convert import ExportTin, TinToContours, TinToLayers, TinToRaster
 from .drain import DrainageReport
+from .measure import Profile, Volume
 from .optimize import OptimizeTin
 from .orders import ConstrainedOrders
 from .program import SETTING
@@ -42,5 +43,5 @@ class ThalwegProvider(QgsProcessingProvider):
 
     def loadAlgorithms(self):  # noqa: N802
         for algorithm in (BuildTin, SimplifyDem, OptimizeTin, ConstrainedOrders, TinToRaster, TinToContours, TinToLayers,
-                          ExportTin, DrainageReport):
+                          ExportTin, DrainageReport, Profile, Volume):
             self.addAlgorithm(algorithm())
