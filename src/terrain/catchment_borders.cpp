@@ -83,9 +83,10 @@ class BorderFinder {
   }
 
   void add_lines_at(HalfedgeId h) {
-    const Fall fall = graph_.fall[h.index()];
+    const TriangleShape shape = graph_.shape[h.index() / 3];
+    const Fall fall = shape.fall(h.index() % 3);
     if (fall == Fall::In && graph_.target[h.index()].many()) add_lines(h);
-    if (fall == Fall::Out && graph_.shape[h.index() / 3].line_to_top != 0) add_line_to_top(h);
+    if (fall == Fall::Out && shape.corner_is_low == 0 && graph_.beyond(h).many()) add_line_to_top(h);
   }
 
   [[nodiscard]] std::uint32_t point_of_piece(std::uint32_t piece) const {
@@ -120,6 +121,7 @@ class BorderFinder {
     }
   }
 
+  // Where two In sides meet at the end of a piece of the Out side h.
   void add_line_to_top(HalfedgeId h) {
     const double top = 1 - graph_.split_at[h.index() / 3];
     std::uint32_t i = graph_.beyond(h).index();
@@ -134,7 +136,7 @@ class BorderFinder {
     parts.clear();
     const auto all_of = [&](FlowNode node) { parts.push_back({1, group_[node], mesh_.target(h).value()}); };
     const TriangleId t = Tin::triangle_of(h);
-    switch (graph_.fall[h.index()]) {
+    switch (graph_.fall(h)) {
       case Fall::Level:
         return all_of(graph_.node_of(graph_.low_corner(t)));
       case Fall::Out:
@@ -169,9 +171,9 @@ class BorderFinder {
   void add_edge(HalfedgeId h) {
     const HalfedgeId twin = mesh_.twin(h);
     if (twin.valid()) {
-      const Fall here = graph_.fall[h.index()], there = graph_.fall[twin.index()];
+      const Fall here = graph_.fall(h), there = graph_.fall(twin);
       const bool out = here == Fall::Out || there == Fall::Out, in = here == Fall::In || there == Fall::In;
-      if (graph_.channel[h.index()] == 0 && out && in) return;  // all that comes goes on
+      if (!graph_.is_channel(h) && out && in) return;  // all that comes goes on
       if (here == Fall::Out && there == Fall::Out) return;
     }
     std::vector<Part>&left = slot_.left, &right = slot_.right, &parts = slot_.parts;

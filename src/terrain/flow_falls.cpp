@@ -102,7 +102,6 @@ struct Slot {
 class FallFinder {
  public:
   explicit FallFinder(FlowGraph& graph) : graph_(graph), mesh_(graph.mesh) {
-    graph_.fall.resize(mesh_.halfedge_count());
     graph_.shape.resize(mesh_.triangle_count());
     graph_.split_at.resize(mesh_.triangle_count());
     graph_.step.resize(mesh_.vertex_count());
@@ -150,11 +149,8 @@ class FallFinder {
       const std::size_t i = t - begin;
       const double ab = batch.fall[0][i], bc = batch.fall[1][i], ca = batch.fall[2][i];
       if ((ab != 0) & (bc != 0) & (ca != 0)) {
-        const std::array<bool, 3> in = {ab < 0, bc < 0, ca < 0};
-        for (std::size_t side = 0; side < 3; ++side) {
-          graph_.fall[3 * t + side] = in[side] ? Fall::In : Fall::Out;
-        }
-        graph_.shape[t] = shape_of(in);
+        const auto over = [](double fall) { return fall < 0 ? Fall::In : Fall::Out; };
+        graph_.shape[t] = shape_of({over(ab), over(bc), over(ca)});
         graph_.split_at[t] = batch.split_at[i];
       } else {
         look_at(TriangleId{t});
@@ -164,30 +160,35 @@ class FallFinder {
   }
 
   /// The odd one of three sides is split.
-  static TriangleShape shape_of(const std::array<bool, 3>& in) {
+  static TriangleShape shape_of(const std::array<Fall, 3>& fall) {
     constexpr std::array<std::uint8_t, 8> kSplit = {0, 0, 1, 2, 2, 1, 0, 0};
-    const unsigned which = (in[0] ? 1U : 0U) | (in[1] ? 2U : 0U) | (in[2] ? 4U : 0U);
-    const bool one = in[0] ^ in[1] ^ in[2];
-    return {.split = static_cast<std::uint8_t>(kSplit[which] & 3U), .corner_is_low = one, .level = 0};
+    unsigned falls = 0, which = 0;
+    for (unsigned side = 0; side < 3; ++side) {
+      falls |= static_cast<unsigned>(fall[side]) << (2 * side);
+      which |= (fall[side] == Fall::In ? 1U : 0U) << side;
+    }
+    const bool one = which == 1 || which == 2 || which == 4;
+    return {.falls = static_cast<std::uint16_t>(falls & 63U),
+            .split = static_cast<std::uint16_t>(kSplit[which] & 3U),
+            .corner_is_low = one};
   }
 
   void look_at(TriangleId t) {
     const Triangle& c = mesh_.triangle(t);
     if (mesh_.height(c[0]) == mesh_.height(c[1]) && mesh_.height(c[1]) == mesh_.height(c[2])) return;
-    std::array<bool, 3> in{};
+    std::array<Fall, 3> fall{};
     for (std::size_t side = 0; side < 3; ++side) {
       const VertexId a = c[side], b = c[(side + 1) % 3], apex = c[(side + 2) % 3];
       const int sign = fall_across(mesh_.point(a), mesh_.height(a), mesh_.point(b), mesh_.height(b),
                                    mesh_.point(apex), mesh_.height(apex));
-      graph_.fall[3 * t.index() + side] = sign > 0 ? Fall::Out : sign < 0 ? Fall::In : Fall::Along;
-      in[side] = sign < 0;
+      fall[side] = sign > 0 ? Fall::Out : sign < 0 ? Fall::In : Fall::Along;
     }
-    graph_.shape[t.index()] = shape_of(in);
+    graph_.shape[t.index()] = shape_of(fall);
     Strip strip = graph_.strip_of(t);
     strip.at = inner_share(graph_.share_of(t, strip, mesh_.point(mesh_.apex(strip.split))));
-    if (strip.corner_is_low && graph_.fall[Tin::next(strip.split).index()] == Fall::Along) {
+    if (strip.corner_is_low && graph_.fall(Tin::next(strip.split)) == Fall::Along) {
       strip.at = 1;
-    } else if (strip.corner_is_low && graph_.fall[Tin::previous(strip.split).index()] == Fall::Along) {
+    } else if (strip.corner_is_low && graph_.fall(Tin::previous(strip.split)) == Fall::Along) {
       strip.at = 0;
     }
     graph_.split_at[t.index()] = strip.at;
@@ -199,7 +200,7 @@ class FallFinder {
       choose(c[side], {slopes[side], Tin::halfedge(t, side), VertexStep::Kind::Edge});
     }
     const TriangleShape shape = graph_.shape[t.index()];
-    if (shape.level != 0 || shape.corner_is_low != 0) return;
+    if (shape.level() || shape.corner_is_low != 0) return;
     const HalfedgeId across = Tin::halfedge(t, shape.split);
     choose(c[shape.split == 0 ? 2 : shape.split - 1U], {slopes[3], across, VertexStep::Kind::Cross});
   }

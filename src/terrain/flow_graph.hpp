@@ -36,12 +36,13 @@ class FlowTarget {
   std::uint32_t value_ = 0;
 };
 
-/// How flow divides in a triangle: see Strip.
+/// How a triangle falls, and how flow divides in it: see Strip.
 struct TriangleShape {
-  std::uint8_t split : 2 = 0;  ///< the side that is split
-  std::uint8_t corner_is_low : 1 = 0;
-  std::uint8_t level : 1 = 1;
-  std::uint8_t line_to_top : 1 = 0;  ///< two In sides meet where a piece of the side that is split ends
+  std::uint16_t falls : 6 = 0;  ///< over each side, two bits
+  std::uint16_t split : 2 = 0;  ///< the side that is split
+  std::uint16_t corner_is_low : 1 = 0;
+  [[nodiscard]] Fall fall(std::size_t side) const { return static_cast<Fall>(falls >> (2 * side) & 3U); }
+  [[nodiscard]] bool level() const { return falls == 0; }
 };
 
 /// One line of flow through a triangle that is not level, and what lies on both sides of it. Water enters
@@ -63,10 +64,9 @@ struct FlowGraph {
   const Tin& tin;
   FlowMesh mesh;
   Flats flats;
-  LargeVector<Fall> fall;             ///< by halfedge
-  LargeVector<TriangleShape> shape;   ///< by triangle
-  LargeVector<double> split_at;       ///< by triangle that is not level: `at` of its strip
-  LargeVector<std::uint8_t> channel;  ///< by halfedge; both sides agree
+  LargeVector<TriangleShape> shape;         ///< by triangle
+  LargeVector<double> split_at;             ///< by triangle that is not level: `at` of its strip
+  LargeVector<std::uint8_t> channel_sides;  ///< by triangle: a bit a side; both triangles of an edge agree
   /// By number: those that the falls make, by halfedge, then those that break cycles.
   LargeVector<Channel> channels;
   std::size_t broken_cycles = 0;
@@ -85,8 +85,12 @@ struct FlowGraph {
 
   FlowGraph(const Tin& t, const Progress& progress) : tin(t), mesh(t, progress) {}
 
-  [[nodiscard]] bool drains(HalfedgeId h) const { return fall[h.index()] >= Fall::Out; }
-  [[nodiscard]] bool level(TriangleId t) const { return shape[t.index()].level != 0; }
+  [[nodiscard]] Fall fall(HalfedgeId h) const { return shape[h.index() / 3].fall(h.index() % 3); }
+  [[nodiscard]] bool drains(HalfedgeId h) const { return fall(h) >= Fall::Out; }
+  [[nodiscard]] bool level(TriangleId t) const { return shape[t.index()].level(); }
+  [[nodiscard]] bool is_channel(HalfedgeId h) const {
+    return (channel_sides[h.index() / 3] >> (h.index() % 3) & 1U) != 0;
+  }
   // Channels that the falls make, vertices, channels that break cycles.
   [[nodiscard]] std::size_t node_count() const { return channels.size() + mesh.vertex_count(); }
   [[nodiscard]] std::size_t first_vertex() const { return channels.size() - broken_cycles; }
@@ -122,7 +126,7 @@ struct FlowGraph {
   [[nodiscard]] double share_of(TriangleId t, const Strip& strip, Point2 p) const;
   /// What runs over h out of its triangle comes to; shares run along h's twin. Pre: drains(h).
   [[nodiscard]] FlowTarget beyond(HalfedgeId h) const {
-    return target[(channel[h.index()] != 0 ? h : mesh.twin(h)).index()];
+    return target[(is_channel(h) ? h : mesh.twin(h)).index()];
   }
   /// The pieces of a target, of which `single` is filled where one has to be made.
   [[nodiscard]] const FlowPiece* pieces_of(FlowTarget t, FlowPiece& single) const {

@@ -102,10 +102,18 @@ void FlowMesh::link_triangles(const Progress& progress) {
   const std::span<const HalfedgeId> given_twins = tin_.arrays().twins;
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      if (t + kAhead < end) {
-        const TriangleId later = given_triangle_[t + kAhead];
+      if (t + 2 * kAhead < end) {
+        const TriangleId later = given_triangle_[t + 2 * kAhead];
         __builtin_prefetch(&tin_.triangle(later));
         __builtin_prefetch(&given_twins[3 * later.index()]);
+      }
+      if (t + kAhead < end) {
+        const TriangleId next = given_triangle_[t + kAhead];
+        for (std::size_t side = 0; side < 3; ++side) {
+          __builtin_prefetch(&own_vertex_[tin_.triangle(next)[side].index()]);
+          const HalfedgeId twin = given_twins[3 * next.index() + side];
+          if (twin.valid()) __builtin_prefetch(&own_triangle_[twin.index() / 3]);
+        }
       }
       const TriangleId given = given_triangle_[t];
       const Triangle& c = tin_.triangle(given);

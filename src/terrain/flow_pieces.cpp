@@ -29,14 +29,19 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
   for_each_block(mesh.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::vector<HalfedgeId>& here = found[begin / kBlock];
     here.reserve((end - begin) / 4);
-    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-      const HalfedgeId h{i}, twin = mesh.twin(h);
-      const Fall fall = graph.fall[i], beyond = twin.valid() ? graph.fall[twin.index()] : Fall::Level;
-      const bool drains = (fall >= Fall::Out) | (beyond >= Fall::Out);
-      const bool goes_on = (fall == Fall::In) | (beyond == Fall::In);
-      const bool channel = drains & !goes_on;
-      graph.channel[i] = channel ? 1 : 0;
-      if (channel && (!twin.valid() || h < twin)) here.push_back(h);
+    for (std::size_t t = begin; t < end; ++t) {
+      const TriangleShape shape = graph.shape[t];
+      unsigned channels = 0;
+      for (std::size_t side = 0; side < 3; ++side) {
+        const HalfedgeId h = Tin::halfedge(TriangleId{t}, side), twin = mesh.twin(h);
+        const Fall fall = shape.fall(side), beyond = twin.valid() ? graph.fall(twin) : Fall::Level;
+        const bool drains = (fall >= Fall::Out) | (beyond >= Fall::Out);
+        const bool goes_on = (fall == Fall::In) | (beyond == Fall::In);
+        const bool channel = drains & !goes_on;
+        channels |= (channel ? 1U : 0U) << side;
+        if (channel && (!twin.valid() || h < twin)) here.push_back(h);
+      }
+      graph.channel_sides[t] = static_cast<std::uint8_t>(channels);
     }
   });
   return found;
@@ -46,7 +51,7 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
 
 void find_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
-  graph.channel.resize(mesh.halfedge_count());
+  graph.channel_sides.resize(mesh.triangle_count());
   graph.target.resize(mesh.halfedge_count());
   const std::vector<std::vector<HalfedgeId>> found = mark_channels(graph, progress);
   std::vector<std::size_t> first;
@@ -70,27 +75,42 @@ void find_channels(FlowGraph& graph, const Progress& progress) {
 
 namespace {
 
-/// How many sides each triangle waits for: those over which it hands water on into triangles that are not
-/// done.
-using Waiting = LargeVector<std::uint8_t>;
-constexpr std::uint8_t kStart = 0xff;  // it never waited
-constexpr std::uint8_t kLevel = 0xfe;
+/// What a triangle waits for: the sides over which it hands water on into triangles that are not done.
+class Awaited {
+ public:
+  /// Adds a side over which water is handed on.
+  void add(std::size_t side) {
+    ++count_;
+    sides_ |= 1U << side & 7U;
+  }
+  [[nodiscard]] bool some() const { return count_ != 0; }
+  [[nodiscard]] bool never() const { return sides_ == 0; }
+  /// Whether the side was added, and no channel made of it.
+  [[nodiscard]] bool has(std::size_t side) const { return (sides_ >> side & 1U) != 0; }
+  void make_channel(std::size_t side) {
+    --count_;
+    sides_ &= ~(1U << side) & 7U;
+  }
+  /// True if that was the last one.
+  bool finish_one() { return --count_ == 0; }
+
+ private:
+  std::uint8_t count_ : 2 = 0;
+  std::uint8_t sides_ : 3 = 0;
+};
+using Waiting = LargeVector<Awaited>;
 
 /// Triangles of one part are done by one thread.
 constexpr std::size_t kPart = 1U << 16U;
 
-bool passes_on(const FlowGraph& graph, HalfedgeId h) {
-  return graph.drains(h) && graph.channel[h.index()] == 0;
-}
-
-Waiting count_awaited(const FlowGraph& graph, const Progress& progress) {
+Waiting list_awaited(const FlowGraph& graph, const Progress& progress) {
   Waiting waiting(graph.mesh.triangle_count());
   for_each_block(waiting.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      unsigned count = 0;
-      for (std::size_t h = 3 * t; h < 3 * t + 3; ++h) count += passes_on(graph, HalfedgeId{h}) ? 1U : 0U;
-      const std::uint8_t none = graph.level(TriangleId{t}) ? kLevel : kStart;
-      waiting[t] = count == 0 ? none : static_cast<std::uint8_t>(count);
+      for (std::size_t side = 0; side < 3; ++side) {
+        const bool channel = (graph.channel_sides[t] >> side & 1U) != 0;
+        if (graph.shape[t].fall(side) >= Fall::Out && !channel) waiting[t].add(side);
+      }
     }
   });
   return waiting;
@@ -106,7 +126,7 @@ class PieceFinder {
   void start(PieceStore::Writer& writer, const Progress& progress) {
     const std::size_t end = std::min((part_ + 1) * kPart, waiting_->size());
     for (std::size_t t = part_ * kPart; t < end; ++t) {
-      if ((*waiting_)[t] == kStart) finish_from(TriangleId{t}, writer, progress);
+      if ((*waiting_)[t].never() && !graph_->shape[t].level()) finish_from(TriangleId{t}, writer, progress);
     }
   }
   void finish_from(TriangleId start, PieceStore::Writer& writer, const Progress& progress) {
@@ -119,8 +139,8 @@ class PieceFinder {
       finish(t);
     }
   }
-  /// Triangles of other parts that wait for one side less.
-  std::vector<TriangleId> take_outside() { return std::exchange(outside_, {}); }
+  /// Sides of triangles of other parts that are done, if they were waited for.
+  std::vector<HalfedgeId> take_outside() { return std::exchange(outside_, {}); }
 
  private:
   void finish(TriangleId t) {
@@ -149,7 +169,6 @@ class PieceFinder {
     keep(before);
     const FlowPiece* piece = graph_->pieces.at(target.index());
     while (piece->end < top && piece->last == 0) ++piece;
-    if (piece->end == top && piece->last == 0) graph_->shape[t.index()].line_to_top = 1;
     while (piece->end <= top && piece->last == 0) ++piece;
     set_next(strip.split, piece->node);
   }
@@ -184,11 +203,12 @@ class PieceFinder {
   void set(HalfedgeId h, FlowTarget target) {
     graph_->target[h.index()] = target;
     const HalfedgeId twin = graph_->mesh.twin(h);
-    if (!twin.valid() || !passes_on(*graph_, twin)) return;
+    if (!twin.valid()) return;
     const TriangleId above = Tin::triangle_of(twin);
     if (above.index() / kPart != part_) {
-      outside_.push_back(above);
-    } else if (--(*waiting_)[above.index()] == 0) {
+      outside_.push_back(twin);
+    } else if (Awaited& awaited = (*waiting_)[above.index()];
+               awaited.has(twin.index() % 3) && awaited.finish_one()) {
       ready_.push_back(above);
     }
   }
@@ -197,7 +217,8 @@ class PieceFinder {
   Waiting* waiting_;
   std::size_t part_;
   PieceStore::Writer* writer_ = nullptr;
-  std::vector<TriangleId> ready_, outside_;
+  std::vector<TriangleId> ready_;
+  std::vector<HalfedgeId> outside_;
 };
 
 /// Parts side by side; then what waited for other parts, and so on.
@@ -237,8 +258,10 @@ class Parts {
   bool count_outside() {
     bool some = false;
     for (PieceFinder& finder : finders_) {
-      for (const TriangleId t : finder.take_outside()) {
-        if (--waiting_[t.index()] != 0) continue;
+      for (const HalfedgeId h : finder.take_outside()) {
+        const TriangleId t = Tin::triangle_of(h);
+        Awaited& awaited = waiting_[t.index()];
+        if (!awaited.has(h.index() % 3) || !awaited.finish_one()) continue;
         ready_[t.index() / kPart].push_back(t);
         some = true;
       }
@@ -252,10 +275,6 @@ class Parts {
   std::vector<std::vector<TriangleId>> ready_;  // by part
 };
 
-bool waits(const Waiting& waiting, TriangleId t) {
-  return waiting[t.index()] != 0 && waiting[t.index()] < kLevel;
-}
-
 /// Makes a channel of an edge of a cycle to which one comes from `t`, over sides that are awaited; returns
 /// the triangle that waited for it, perhaps for one in another cycle too.
 TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
@@ -265,7 +284,7 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
     HalfedgeId over;
     for (std::size_t side = 0; side < 3; ++side) {
       const HalfedgeId h = Tin::halfedge(t, side);
-      if (passes_on(graph, h) && waits(waiting, Tin::triangle_of(graph.mesh.twin(h)))) over = h;
+      if (waiting[t.index()].has(side) && waiting[Tin::triangle_of(graph.mesh.twin(h)).index()].some()) over = h;
     }
     const HalfedgeId twin = graph.mesh.twin(over);
     const TriangleId next = Tin::triangle_of(twin);
@@ -273,11 +292,13 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
       t = next;
       continue;
     }
-    graph.channel[over.index()] = graph.channel[twin.index()] = 1;
+    for (const HalfedgeId h : {over, twin}) {
+      graph.channel_sides[h.index() / 3] |= static_cast<std::uint8_t>(1U << (h.index() % 3));
+    }
     graph.target[over.index()] = FlowTarget::node(static_cast<FlowNode>(graph.node_count()));
     graph.channels.push_back({std::min(over, twin), graph.low_end(over), false});
     ++graph.broken_cycles;
-    --waiting[t.index()];
+    waiting[t.index()].make_channel(over.index() % 3);
     return t;
   }
 }
@@ -286,13 +307,13 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
 
 void find_pieces(FlowGraph& graph, const Progress& progress) {
   graph.next.assign(graph.mesh.vertex_count(), kNoNode);
-  Waiting waiting = count_awaited(graph, progress);
+  Waiting waiting = list_awaited(graph, progress);
   Parts parts(graph, waiting);
   parts.start(progress);
   for (std::size_t t = 0; t < waiting.size(); ++t) {
-    while (waits(waiting, TriangleId{t})) {
+    while (waiting[t].some()) {
       const TriangleId freed = break_cycle(graph, waiting, TriangleId{t});
-      if (waiting[freed.index()] == 0) parts.finish_from(freed, progress);
+      if (!waiting[freed.index()].some()) parts.finish_from(freed, progress);
     }
   }
 }

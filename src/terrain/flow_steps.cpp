@@ -45,7 +45,7 @@ class StepFinder {
  private:
   [[nodiscard]] FlowNode node_along(VertexId v, const VertexStep& step) const {
     const VertexId neighbour = graph_.neighbour(v, step);
-    if (graph_.channel[step.edge.index()] != 0 && !mesh_.on_rim(step.edge)) {
+    if (graph_.is_channel(step.edge) && !mesh_.on_rim(step.edge)) {
       const FlowNode channel = graph_.node_of_channel(step.edge);
       if (graph_.channel_of(channel).low == neighbour) return channel;
     }

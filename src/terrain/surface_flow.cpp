@@ -32,7 +32,7 @@ class Walk {
   FlowPath leg(VertexId v) {
     arrive(v);
     leave_vertex();
-    while (side_.valid() && graph_.channel[side_.index()] == 0) cross_side();
+    while (side_.valid() && !graph_.is_channel(side_)) cross_side();
     path_.sink = {};
     return std::move(path_);
   }
@@ -103,7 +103,7 @@ class Walk {
   }
 
   bool cross_side() {
-    if (graph_.channel[side_.index()] == 0) {
+    if (!graph_.is_channel(side_)) {
       enter(mesh_.twin(side_), 1 - at_);
       return true;
     }
@@ -192,13 +192,13 @@ bool SurfaceFlow::is_valley(HalfedgeId given) const {
   const FlowMesh& mesh = graph_->mesh;
   const HalfedgeId h = mesh.own(given), twin = mesh.twin(h);
   if (!twin.valid() || !graph_->drains(h) || !graph_->drains(twin)) return false;
-  const bool takes_water = graph_->fall[h.index()] == Fall::Out || graph_->fall[twin.index()] == Fall::Out;
+  const bool takes_water = graph_->fall(h) == Fall::Out || graph_->fall(twin) == Fall::Out;
   return takes_water && mesh.height(mesh.origin(h)) != mesh.height(mesh.target(h));
 }
 
 bool SurfaceFlow::is_ridge(HalfedgeId given) const {
   const HalfedgeId h = graph_->mesh.own(given), twin = graph_->mesh.twin(h);
-  return twin.valid() && graph_->fall[h.index()] == Fall::In && graph_->fall[twin.index()] == Fall::In;
+  return twin.valid() && graph_->fall(h) == Fall::In && graph_->fall(twin) == Fall::In;
 }
 
 std::size_t SurfaceFlow::broken_cycles() const {
