@@ -18,7 +18,8 @@ namespace thalweg {
 
 /// What connects what, height by height: the nodes are sets of vertices up to some height that edges of all
 /// labellings up to it connect. A labelling has the least depth of pits if its links connect all that the
-/// links together can; then every spill is as low as it can be, and pits are fewest too.
+/// links together can; then every spill is as low as it can be, pits are fewest, and on every vertex water
+/// stands as low as it can when all pits are full.
 /// Complexity: sorting edges by height.
 PlateauGraph find_spills(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                          std::span<const std::uint32_t> owner, const Progress& progress);

@@ -94,6 +94,36 @@ constexpr int kScenes = 100, kPairScenes = 100;
 constexpr std::size_t kQuadrilaterals = 8, kMostQuadrilaterals = 8;
 #endif
 
+TEST(Criteria, LeastDepthLeavesTheLeastWaterOnEveryVertex) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  std::size_t lowered = 0;
+  for (int i = 0; i < scene_count(kPairScenes) && !HasFailure(); ++i) {
+    const Scene scene = random_scene(random, kQuadrilaterals, random.integer(2, 12), i % 3 == 0);
+    SCOPED_TRACE("scene " + std::to_string(i));
+    const std::size_t count = scene.quadrilaterals.size();
+    const auto levels_of = [&](const Labels& flipped) {
+      return PlainWater(with_diagonals(scene.tin, scene.quadrilaterals, flipped), 1, 1).fill_levels();
+    };
+    const std::vector<double> delaunay = levels_of(Labels(count, 0));
+    std::vector<double> least = delaunay;
+    for (std::size_t bits = 1; bits < std::size_t{1} << count; ++bits) {
+      Labels flipped;
+      for (std::size_t q = 0; q < count; ++q) flipped.push_back(static_cast<std::uint8_t>(bits >> q & 1U));
+      const std::vector<double> levels = levels_of(flipped);
+      for (std::size_t v = 0; v < levels.size(); ++v) least[v] = std::min(least[v], levels[v]);
+    }
+    lowered += least == delaunay ? 0 : 1;
+    for (const Criterion second : {Criterion::NormalAngleSum, Criterion::EdgeLength, Criterion::MinAngle}) {
+      Progress progress;
+      const OptimizeResult result = optimize_first_order(
+          scene.tin, scene.quadrilaterals, {.criteria = {Criterion::PitDepth, second}}, progress);
+      EXPECT_EQ(levels_of(result.flipped), least);
+    }
+  }
+  EXPECT_GT(lowered, 0U);
+}
+
 TEST(Criteria, AloneAndInPairsAreTheBestOfAll) {
   Random random;
   SCOPED_TRACE(random.trace());
