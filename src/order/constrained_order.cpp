@@ -77,6 +77,9 @@ constexpr std::size_t kFewFaces = 20;
 /// Up to this limit the list of what is counted is searched.
 constexpr std::size_t kMostSearched = 64;
 
+/// Of vertices in view that are looked at one by one, after which a flood and sweeps cost less.
+constexpr std::size_t kMostLooks = 64;
+
 /// A vertex beyond one side of a triangle: u and v are the side's ends, the triangle to its left; w is
 /// opposite.
 struct Beyond {
@@ -203,8 +206,10 @@ bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition d
   counted.clear();
   views.start(ground, corners,
               vtx ? detail::CornerViews::Eyes::AllCorners : detail::CornerViews::Eyes::Opposite);
+  std::size_t looks = 0;
   while (const auto view = views.next()) {
     const auto& [p, u, v, from_opposite] = *view;
+    if (fewer && ++looks > kMostLooks) return false;
     if (fewer && !counts_alone(ground, corners, p, definition, side_sight, occupancy)) continue;
     if (!from_opposite) {
       if (std::find(counted.begin(), counted.end(), p) != counted.end()) continue;

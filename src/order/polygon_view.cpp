@@ -11,39 +11,85 @@
 //    behind another.
 #include "order/polygon_view.hpp"
 
+#include <algorithm>
+
 namespace thalweg::detail {
+
+std::optional<VertexId> PolygonView::advance(const Ground& ground, const Circumdisc& disc, Point2 from) {
+  const Tin& tin = ground.tin();
+  const Cone cone = open_.back();
+  open_.pop_back();
+  if (ground.blocks(cone.edge)) return std::nullopt;
+  const Point2 right_end = ground.point(tin.origin(cone.edge));
+  const Point2 left_end = ground.point(tin.target(cone.edge));
+  if (disc.side(right_end) < 0 && disc.side(left_end) < 0 && !disc.passes(right_end, left_end)) {
+    return std::nullopt;
+  }
+  const HalfedgeId entry = tin.twin(cone.edge);
+  const VertexId apex = tin.apex(entry);
+  const Point2 at = ground.point(apex);
+  const bool left_of_right = orientation(from, cone.angle.right, at) > 0;
+  const bool right_of_left = orientation(from, at, cone.angle.left) > 0;
+  if (left_of_right) {
+    open_.push_back({Tin::next(entry), {cone.angle.right, right_of_left ? at : cone.angle.left}});
+  }
+  if (right_of_left) {
+    open_.push_back({Tin::previous(entry), {left_of_right ? at : cone.angle.right, cone.angle.left}});
+  }
+  return left_of_right && right_of_left ? std::optional(apex) : std::nullopt;
+}
+
+void PolygonView::follow(const Ground& ground, const Circumdisc& disc, Point2 from) {
+  while (!open_.empty()) {
+    if (const auto seen = advance(ground, disc, from)) visible_.push_back(*seen);
+  }
+}
 
 std::span<const VertexId> PolygonView::look(const Ground& ground, const Circumdisc& disc, VertexId eye) {
   const Tin& tin = ground.tin();
-  const Point2 from = ground.point(eye);
-  open_.clear();
   visible_.clear();
+  open_.clear();
   for (const HalfedgeId h : tin.outgoing(eye)) {
     visible_.push_back(tin.target(h));
     if (tin.on_rim(Tin::previous(h))) visible_.push_back(tin.apex(h));
     open_.push_back({Tin::next(h), {ground.point(tin.target(h)), ground.point(tin.apex(h))}});
   }
-  while (!open_.empty()) {
-    const Cone cone = open_.back();
-    open_.pop_back();
-    if (ground.blocks(cone.edge)) continue;
-    const Point2 right_end = ground.point(tin.origin(cone.edge));
-    const Point2 left_end = ground.point(tin.target(cone.edge));
-    if (disc.side(right_end) < 0 && disc.side(left_end) < 0 && !disc.passes(right_end, left_end)) continue;
-    const HalfedgeId entry = tin.twin(cone.edge);
-    const VertexId apex = tin.apex(entry);
-    const Point2 at = ground.point(apex);
-    const bool left_of_right = orientation(from, cone.angle.right, at) > 0;
-    const bool right_of_left = orientation(from, at, cone.angle.left) > 0;
-    if (left_of_right && right_of_left) visible_.push_back(apex);
-    if (left_of_right) {
-      open_.push_back({Tin::next(entry), {cone.angle.right, right_of_left ? at : cone.angle.left}});
-    }
-    if (right_of_left) {
-      open_.push_back({Tin::previous(entry), {left_of_right ? at : cone.angle.right, cone.angle.left}});
-    }
-  }
+  follow(ground, disc, ground.point(eye));
   return visible_;
+}
+
+// Leaves the neighbours within the angle in visible_. The last edge of a fan is on the rim: it is not within.
+void PolygonView::start_within(const Ground& ground, VertexId eye, const Angle& angle) {
+  const Tin& tin = ground.tin();
+  const Point2 from = ground.point(eye);
+  visible_.clear();
+  open_.clear();
+  for (const HalfedgeId h : tin.outgoing(eye)) {
+    const Point2 right = ground.point(tin.target(h)), left = ground.point(tin.apex(h));
+    if (orientation(from, angle.right, right) > 0 && orientation(from, right, angle.left) > 0) {
+      visible_.push_back(tin.target(h));
+    }
+    if (const auto part = intersect(from, {right, left}, angle)) open_.push_back({Tin::next(h), *part});
+  }
+}
+
+std::span<const VertexId> PolygonView::look_within(const Ground& ground, const Circumdisc& disc, VertexId eye,
+                                                   const Angle& angle) {
+  start_within(ground, eye, angle);
+  follow(ground, disc, ground.point(eye));
+  return visible_;
+}
+
+bool PolygonView::sees_any(const Ground& ground, const Circumdisc& disc, VertexId eye, const Angle& angle,
+                           VertexId one) {
+  const auto wanted = [&](VertexId v) { return v == one || disc.holds(ground.point(v)); };
+  start_within(ground, eye, angle);
+  if (std::any_of(visible_.begin(), visible_.end(), wanted)) return true;
+  while (!open_.empty()) {
+    const auto seen = advance(ground, disc, ground.point(eye));
+    if (seen && wanted(*seen)) return true;
+  }
+  return false;
 }
 
 }  // namespace thalweg::detail

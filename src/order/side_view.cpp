@@ -77,8 +77,10 @@ SideView::Halves SideView::split(Chain chain, std::uint32_t at) {
 
 // For each corner but the first the chain that the path to it leaves, from where it does to the corner
 // before.
-void SideView::wrap(std::span<const VertexId> corners, Turn bend, std::vector<Chain>& chains) {
+void SideView::wrap(std::span<const VertexId> corners, Turn bend, Wrapped& wrapped) {
+  auto& [chains, tangents] = wrapped;
   chains.clear();
+  tangents.clear();
   const std::uint32_t first = add(corners.front());
   Chain path{first, first};
   for (const VertexId corner : corners.subspan(1)) {
@@ -86,6 +88,7 @@ void SideView::wrap(std::span<const VertexId> corners, Turn bend, std::vector<Ch
     while (at != path.far && turn(links_[at].farther, at, corner) != static_cast<int>(bend)) {
       at = links_[at].farther;
     }
+    tangents.push_back(links_[at].vertex);
     const Halves halves = split(path, at);
     chains.push_back(halves.near);
     path = append(halves.far, corner);
@@ -131,7 +134,11 @@ void SideView::open_windows(VertexId u, VertexId v) {
   std::reverse(corners_.begin(), corners_.end());
   wrap(corners_, Turn::Left, left_);
   for (std::size_t i = 0; i < edges_.size(); ++i) {
-    open_.push_back({edges_[i], right_[i], left_[edges_.size() - 1 - i]});
+    open_.push_back({edges_[i], right_.chains[i], left_.chains[edges_.size() - 1 - i]});
+  }
+  bounds_.clear();
+  for (std::size_t i = 0; i < visible_.size(); ++i) {
+    bounds_.push_back({left_.tangents[visible_.size() - 1 - i], right_.tangents[i]});
   }
 }
 
@@ -148,8 +155,11 @@ void SideView::enter(const Window& window) {
   if (side(left.far, right.near) <= 0) return open_.push_back({left_exit, right, left});
   if (side(right.far, left.near) >= 0) return open_.push_back({right_exit, right, left});
   visible_.push_back(x);
-  const Halves left_halves = split(left, tangent(left, Turn::Left, x));
-  const Halves right_halves = split(right, tangent(right, Turn::Right, x));
+  const std::uint32_t left_tangent = tangent(left, Turn::Left, x);
+  const std::uint32_t right_tangent = tangent(right, Turn::Right, x);
+  bounds_.push_back({links_[left_tangent].vertex, links_[right_tangent].vertex});
+  const Halves left_halves = split(left, left_tangent);
+  const Halves right_halves = split(right, right_tangent);
   open_.push_back({right_exit, right_halves.near, append(left_halves.far, x)});
   open_.push_back({left_exit, append(right_halves.far, x), left_halves.near});
 }

@@ -22,6 +22,12 @@ class SideView {
   /// along which light comes to it.
   std::span<const VertexId> look(const Ground& ground, const Circumdisc& disc, VertexId u, VertexId v,
                                  std::size_t most_faces = std::numeric_limits<std::size_t>::max());
+  /// Between what a vertex sees the side: all lines from it strictly between the two cross uv unhindered.
+  struct Bounds {
+    VertexId right, left;
+  };
+  /// One for each vertex that the last look gave.
+  [[nodiscard]] std::span<const Bounds> bounds() const { return bounds_; }
   /// Whether the last walk was stopped: then what it found is not all.
   [[nodiscard]] bool gave_up() const { return !open_.empty(); }
 
@@ -51,15 +57,21 @@ class SideView {
   [[nodiscard]] std::uint32_t tangent(Chain chain, Turn bend, VertexId x) const;
   Halves split(Chain chain, std::uint32_t at);
   void open_windows(VertexId u, VertexId v);
-  void wrap(std::span<const VertexId> corners, Turn bend, std::vector<Chain>& chains);
+  /// A part of the chain for each edge between corners, and for each corner but the first its tangent.
+  struct Wrapped {
+    std::vector<Chain> chains;
+    std::vector<VertexId> tangents;
+  };
+  void wrap(std::span<const VertexId> corners, Turn bend, Wrapped& wrapped);
   void enter(const Window& window);
 
   const Ground* ground_ = nullptr;
   std::vector<Link> links_;
   std::vector<Window> open_;
   std::vector<VertexId> visible_, corners_;
+  std::vector<Bounds> bounds_;
   std::vector<HalfedgeId> edges_;
-  std::vector<Chain> right_, left_;
+  Wrapped right_, left_;
 };
 
 }  // namespace thalweg::detail

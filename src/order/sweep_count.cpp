@@ -19,9 +19,13 @@
 // 4. EmptyQuad: p sees u and v, and triangle uvp is empty. By angle at u, then by distance from u: p is empty
 //    if its angle at v is smaller than all before it.
 // 5. Over simple polygons walks along the dual tree give each view (polygon_view.cpp) and all that sees a
-// side
-//    (side_view.cpp; section 5 and Table 2). A triangle uvp whose sides run on the ground
-//    then holds no vertex (Lemma 2).
+//    side, and between which lines (side_view.cpp; section 5 and Table 2). A triangle uvp whose sides run on
+//    the ground then holds no vertex (Lemma 2).
+// 6. ConfEdge there: between these lines nothing is in the way up to the triangle; what stands there is w or
+//    lies beyond another side. Of two vertices that see each other through the triangle one at least lies
+//    beyond one of any two sides. Where few see two of the sides, as in most discs that hold much, which are
+//    those of flat triangles, only these few look. Else each looks up to the first vertex in sight: n^2 where
+//    such looks run far along narrow ways. (The paper shoots rays in n log n.)
 #include "order/sweep_count.hpp"
 
 #include <algorithm>
@@ -140,6 +144,7 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
   for (std::size_t side = 0; side < 3; ++side) {
     if (!beyond_[side].empty()) at_side(ground, definition, side);
   }
+  if (definition == OrderDefinition::ConfEdge && ground.simple_polygons()) count_conflicts(ground);
   return counted_;
 }
 
@@ -158,7 +163,7 @@ void SweepCount::view(const Ground& ground, VertexId eye, ViewSweep::HalfPlane h
 void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::size_t side) {
   const VertexId u = corners_[side], v = corners_[(side + 1) % 3], w = corners_[(side + 2) % 3];
   const bool by_light = definition == OrderDefinition::SeesTriang || definition == OrderDefinition::SeesVtx ||
-                        definition == OrderDefinition::ConfEdge;
+                        (definition == OrderDefinition::ConfEdge && !ground.simple_polygons());
   if (by_light && ground.simple_polygons()) {
     assign_sorted(in_light_, side_view_.look(ground, disc_, u, v));
     in_light_ = common(in_light_, beyond_[side]);
@@ -224,13 +229,59 @@ void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std
 bool SweepCount::conflicts(const Ground& ground, VertexId p, std::size_t side) {
   const auto& across = beyond_[(side + 1) % 3];
   const auto& also_across = beyond_[(side + 2) % 3];
-  const auto visible = ground.simple_polygons()
-                           ? polygon_view_.look(ground, disc_, p)
-                           : sweep_.look(ground, p, {corners_[side], -1}, inside_, edges_);
+  const auto visible = sweep_.look(ground, p, {corners_[side], -1}, inside_, edges_);
   return std::any_of(visible.begin(), visible.end(), [&](VertexId r) {
     return std::binary_search(across.begin(), across.end(), r) ||
            std::binary_search(also_across.begin(), also_across.end(), r);
   });
+}
+
+// Over simple polygons, besides what sees its opposite corner.
+void SweepCount::count_conflicts(const Ground& ground) {
+  for (std::size_t side = 0; side < 3; ++side) {
+    lit_[side].clear();
+    if (beyond_[side].empty()) continue;
+    const auto seen = side_view_.look(ground, disc_, corners_[side], corners_[(side + 1) % 3]);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!std::binary_search(beyond_[side].begin(), beyond_[side].end(), seen[i])) continue;
+      lit_[side].push_back({seen[i], side_view_.bounds()[i]});
+    }
+  }
+  std::array<std::size_t, 3> sides{0, 1, 2};
+  std::sort(sides.begin(), sides.end(),
+            [&](std::size_t a, std::size_t b) { return lit_[a].size() < lit_[b].size(); });
+  if (lit_[sides[0]].size() + lit_[sides[1]].size() <= kFewLit) {
+    add_conflicts_of_few(ground, sides[0]);
+    add_conflicts_of_few(ground, sides[1]);
+  } else {
+    for (const std::size_t side : sides) add_conflicts_one_by_one(ground, side);
+  }
+  std::sort(counted_.begin(), counted_.end());
+  counted_.erase(std::unique(counted_.begin(), counted_.end()), counted_.end());
+}
+
+// The vertices that see the side, and what they see through it.
+void SweepCount::add_conflicts_of_few(const Ground& ground, std::size_t side) {
+  const auto& across = beyond_[(side + 1) % 3];
+  const auto& also_across = beyond_[(side + 2) % 3];
+  for (const auto& [p, bounds] : lit_[side]) {
+    const Angle angle{ground.point(bounds.right), ground.point(bounds.left)};
+    const std::size_t before = counted_.size();
+    for (const VertexId r : polygon_view_.look_within(ground, disc_, p, angle)) {
+      if (std::binary_search(across.begin(), across.end(), r) ||
+          std::binary_search(also_across.begin(), also_across.end(), r)) {
+        counted_.push_back(r);
+      }
+    }
+    if (counted_.size() > before) counted_.push_back(p);
+  }
+}
+
+void SweepCount::add_conflicts_one_by_one(const Ground& ground, std::size_t side) {
+  for (const auto& [p, bounds] : lit_[side]) {
+    const Angle angle{ground.point(bounds.right), ground.point(bounds.left)};
+    if (polygon_view_.sees_any(ground, disc_, p, angle, corners_[(side + 2) % 3])) counted_.push_back(p);
+  }
 }
 
 void SweepCount::keep_empty(const Ground& ground, VertexId u, VertexId v,

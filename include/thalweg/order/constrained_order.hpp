@@ -57,16 +57,25 @@ class OrderWorkspace {
 ///
 /// Cost, with f the faces of the ground that meet the disc (under Pathcon, ConfEdge and SeesOpp: as far as no
 /// constraint edge parts them from the triangle), q the vertices that Pathcon counts, m the constraint edges
-/// met, n = q + m; in brackets the paper's bound (Table 1). Std, Pathcon [n log n]: O(f).
-/// SeesOpp, Sees3vtx, EmptyQuad [n log n]: O(f + n log n).
-/// SeesVtx, SeesTriang [n log n, n^2]: the same, and O(n log n) at most for each vertex that sees a corner
-/// only past an edge that ends there or, under SeesTriang, none at all: no less is known to tell if it sees a
-/// side. ConfEdge [n^2]: the same for each vertex that does not see its opposite corner. Up to 256 vertices
-/// pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
-/// Over a simple polygon without vertices inside, by the paper's Table 2: Pathcon, SeesOpp, Sees3vtx,
-/// EmptyQuad [n]: O(f), each face entered once by each view; SeesVtx, SeesTriang [n]: the same, and O(n log
-/// n) at most to cut what a side sees; ConfEdge [n log n]: also O(f) at most for each vertex that sees the
-/// triangle and not its opposite corner.
+/// met, n = q + m; in brackets the paper's bound (Table 1). Most discs of low order meet ten to twenty faces:
+/// a flood, and a short walk for each line of sight. Where they meet more:
+/// Std, Pathcon [n log n]: O(f); Std over a polygon: the vertices in the disc's box.
+/// SeesOpp, Sees3vtx, EmptyQuad [n log n]: what each corner sees through the side across, a face for each two
+/// neighbours in sight; past 4096 faces O(f + n log n).
+/// SeesVtx [n log n]: with a limit up to 64 what all corners see, in the same way, and a look at the side for
+/// each vertex that only its ends see; else as SeesTriang, of those that see a corner.
+/// SeesTriang [n^2]: with a limit the light from each side, a face for each way along which it comes; else,
+/// and past 4096 faces, O(f + n log n) and O(n log n) at most for each vertex that sees a corner only past an
+/// edge that ends there, or none: no less is known to tell if it sees a side.
+/// ConfEdge [n^2]: with a limit the light from the two shorter sides, and what each vertex there, up to 64 a
+/// side, sees through the longest; else O(f + n log n), and O(n log n) at most for each vertex that does not
+/// see its opposite corner. Limits of 0 and 1 cost SeesTriang what SeesVtx, and ConfEdge what SeesOpp costs.
+/// Up to 256 vertices pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
+/// Over a simple polygon without vertices inside, with more than 256 in the disc (Table 2 in brackets):
+/// Pathcon, SeesOpp, Sees3vtx, EmptyQuad [n]: O(f), each face entered once by each view; SeesVtx, SeesTriang
+/// [n]: the same, and O(n log n) at most to cut what a side sees; ConfEdge [n log n]: the same, if at most 64
+/// vertices see the two sides that fewest see; else also a walk through each vertex's light up to the first
+/// vertex in it, O(f) at most: [n log n] is reached where ways are short, n^2 where they are long and narrow.
 class ConstrainedOrder {
  public:
   /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in

@@ -110,6 +110,28 @@ Tin hall(std::size_t m) {
   return keep_triangles(tin, keep);
 }
 
+// A simple polygon round a triangle of three corners on the circle of radius 2.2: teeth, all but those near
+// the corners inside the circle, and pockets between them that look across to the teeth beyond the other
+// sides.
+Tin arena(std::size_t m) {
+  constexpr double kTurn = 2 * 3.14159265358979323846;
+  FlatTriangle scene;
+  scene.points.clear();
+  for (std::size_t i = 0; i < 3 * m; ++i) {
+    const double part = static_cast<double>(i % m) / static_cast<double>(m);
+    const bool inside = part > 0.05 && part < 0.95;
+    double radius = i % 2 == 0 ? scene.real(2.05, 2.1) : scene.real(2.1, 2.19);
+    if (!inside) radius = i % m == 0 ? 2.2 : 2.3;
+    const double turn = kTurn / 3 * (static_cast<double>(i / m) + part);
+    scene.add(radius * std::cos(turn), radius * std::sin(turn));
+    scene.connect(VertexId{i}, VertexId{(i + 1) % (3 * m)});
+  }
+  const Tin tin = scene.triangulated();
+  std::vector<bool> keep;
+  for (const Triangle& t : tin.triangles()) keep.push_back(t[0] < t[1] && t[1] < t[2]);
+  return keep_triangles(tin, keep);
+}
+
 void count_sizes(benchmark::State& state, std::size_t counted) {
   state.counters["counted"] = static_cast<double>(counted);
   state.SetComplexityN(state.range(0));
@@ -132,6 +154,20 @@ void order_in_polygon(benchmark::State& state, OrderDefinition definition) {
   std::size_t counted = 0;
   for (auto _ : state) counted = order.order(flat, definition, workspace);
   count_sizes(state, counted);
+}
+
+void conflicts_in_polygon(benchmark::State& state) {
+  const auto m = static_cast<std::size_t>(state.range(0));
+  const Tin tin = arena(m);
+  const ConstrainedOrder order(tin, GroundMode::Polygon);
+  OrderWorkspace workspace;
+  const Triangle round{VertexId{std::size_t{0}}, VertexId{m}, VertexId{2 * m}};
+  if (!order.is_valid(round, workspace)) return state.SkipWithError("no valid triangle");
+  std::size_t counted = 0;
+  for (auto _ : state) counted = order.order(round, OrderDefinition::ConfEdge, workspace);
+  count_sizes(state, counted);
+  state.counters["see the opposite corner"] =
+      static_cast<double>(order.order(round, OrderDefinition::SeesOpp, workspace));
 }
 
 // By a walk from each vertex to the opposite corner.
@@ -243,6 +279,11 @@ BENCHMARK_CAPTURE(order_in_polygon, sees_3vtx, OrderDefinition::Sees3vtx)
 BENCHMARK_CAPTURE(order_in_polygon, empty_quad, OrderDefinition::EmptyQuad)
     ->RangeMultiplier(10)
     ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+BENCHMARK(conflicts_in_polygon)
+    ->RangeMultiplier(10)
+    ->Range(300, 30000)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 BENCHMARK_CAPTURE(pairs, ladder, ladder)

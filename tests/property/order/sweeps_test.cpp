@@ -217,13 +217,14 @@ TEST(Sweeps, CountWhatPairsCount) {
   }
 }
 
-// A star-shaped polygon with long and short spikes about the origin.
-Tin spiky_polygon(test::Random& random, std::size_t corners) {
+// A star-shaped polygon about the origin.
+template <class Radius>
+Tin star_polygon(std::size_t corners, const Radius& radius_of) {
   std::vector<Point2> points;
   std::vector<ConstraintEdge> edges;
   for (std::size_t i = 0; i < corners; ++i) {
     const double angle = 2 * 3.141592653589793 * static_cast<double>(i) / static_cast<double>(corners);
-    const double radius = random.integer(0, 3) == 0 ? random.real(2, 4) : random.real(8, 10);
+    const double radius = radius_of(i);
     points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     edges.push_back({VertexId{i}, VertexId{(i + 1) % corners}, EdgeKind::Boundary});
   }
@@ -235,6 +236,13 @@ Tin spiky_polygon(test::Random& random, std::size_t corners) {
   return keep_triangles(tin, keep);
 }
 
+// With long and short spikes.
+Tin spiky_polygon(test::Random& random, std::size_t corners) {
+  return star_polygon(corners, [&](std::size_t) {
+    return random.integer(0, 3) == 0 ? random.real(2, 4) : random.real(8, 10);
+  });
+}
+
 TEST(Sweeps, CountWhatPairsCountInSimplePolygons) {
   test::Random random;
   SCOPED_TRACE(random.trace());
@@ -244,6 +252,33 @@ TEST(Sweeps, CountWhatPairsCountInSimplePolygons) {
     EXPECT_FALSE(Ground(tin, GroundMode::Hull).simple_polygons());
     expect_same_as_pairs(tin, GroundMode::Polygon, random, 6);
   }
+}
+
+// Inside the circle through three corners teeth, and pockets between them that look across to other teeth.
+TEST(Sweeps, CountConflictsAcrossSimplePolygons) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  std::size_t beside = 0;  // that do not see their opposite corner
+  for (const std::size_t third : {20, 60, 300}) {
+    const Tin tin = star_polygon(3 * third, [&](std::size_t i) {
+      const std::size_t from_corner = std::min(i % third, third - i % third);
+      if (from_corner * 20 < third) return from_corner == 0 ? 2.2 : 2.3;
+      return i % 2 == 0 ? random.real(2.05, 2.1) : random.real(2.1, 2.19);
+    });
+    const Ground ground(tin, GroundMode::Polygon);
+    ASSERT_TRUE(ground.simple_polygons());
+    const Triangle corners{VertexId{std::size_t{0}}, VertexId{third}, VertexId{2 * third}};
+    Counter counter{ground, {}, {}, {}, 0};
+    const std::vector<VertexId> found = counter.counted(corners, OrderDefinition::ConfEdge);
+    std::vector<VertexId> expected;
+    for (const VertexId p : counter.flood.inside()) {
+      if (counts(ground, corners, p, OrderDefinition::ConfEdge, counter.flood.inside()))
+        expected.push_back(p);
+    }
+    EXPECT_EQ(found, sorted(expected));
+    beside += found.size() - counter.counted(corners, OrderDefinition::SeesOpp).size();
+  }
+  EXPECT_GT(beside, 0U);
 }
 
 TEST(Sweeps, FollowLemma2InSimplePolygons) {
