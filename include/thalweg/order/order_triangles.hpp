@@ -28,10 +28,12 @@ struct OrderTriangleOptions {
 /// sorted.
 ///
 /// Under Std ... SeesOpp, and Sees3vtx without constraint edges, a local search, proved complete, whose cost
-/// goes with what it finds and with what the vertices see near by. Under Sees3vtx and EmptyQuad nothing
-/// bounds where such triangles lie: every pair of vertices that see each other is tried. Throws:
-/// Error{SizeLimit} if these have more vertices than `exhaustive_limit`; {Cancelled}. Reports the fraction
-/// done of the caller's phase. Parallel; deterministic.
+/// goes with what it finds and with what the vertices see near by. Under Sees3vtx with constraint edges, and
+/// under EmptyQuad, nothing bounds where such triangles lie: a short constraint edge close to one end of a
+/// side hides it from all that lies beyond, and a vertex close to a side lies in most other triangles on it,
+/// so that one of order 1 may be as long as the terrain, its disc full. Every pair of vertices that see each
+/// other is tried. Throws: Error{SizeLimit} if these have more vertices than `exhaustive_limit`; {Cancelled}.
+/// Reports the fraction done of the caller's phase. Parallel; deterministic.
 std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
                                                 const OrderTriangleOptions& options, Progress& progress);
 
