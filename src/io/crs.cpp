@@ -106,6 +106,18 @@ OGRSpatialReference parse_reference(const std::string& definition) {
   return reference;
 }
 
+bool means_same_crs(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  try {
+    const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                   "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+    const OGRSpatialReference first = parse_reference(a), second = parse_reference(b);
+    return first.IsSame(&second, options) != 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin) {
   CrsInfo info;
   if (reference.IsEmpty()) return info;

@@ -1,7 +1,9 @@
 // A folder of GDAL's /vsimem/ with a name of its own.
 #include "io/memory_folder.hpp"
 
+#include "io/file_content.hpp"
 #include "io/file_writer.hpp"
+#include "io/spatial_reference.hpp"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -45,6 +47,10 @@ void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, 
     const std::string from = folder_ + "/" + name;
     if (from == path_ || name == "." || name == "..") continue;
     const std::string beside = std::filesystem::path(target_).replace_filename(name).string();
+    if (mode == Overwrite::No && from.ends_with(".prj") && std::filesystem::is_regular_file(beside) &&
+        means_same_crs(read_prj_sidecar(beside), read_prj_sidecar(from))) {
+      continue;  // of another format of the same name
+    }
     copy_out(from, pending.add(beside, mode), beside);
   }
 }

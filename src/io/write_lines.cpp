@@ -34,7 +34,8 @@ void write_features(const std::string& path, const LineLayerView& view, const Wr
                                         wkbLineString25D, creation.List());
   if (layer == nullptr) fail(path, session);
   OGRFieldDefn field(view.field.c_str(), OFTReal);
-  if (layer->CreateField(&field) != OGRERR_NONE) fail(path, session);
+  const bool has_field = layer->TestCapability(OLCCreateField) != 0;  // not DXF: z tells the height
+  if (has_field && layer->CreateField(&field) != OGRERR_NONE) fail(path, session);
   const bool in_transaction =
       dataset.TestCapability(ODsCTransactions) != 0 && dataset.StartTransaction() == OGRERR_NONE;
   OGRFeature feature(layer->GetLayerDefn());
@@ -50,7 +51,7 @@ void write_features(const std::string& path, const LineLayerView& view, const Wr
     }
     feature.SetFID(OGRNullFID);
     feature.SetGeometryDirectly(geometry.release());
-    feature.SetField(layer->GetLayerDefn()->GetFieldCount() - 1, line.height);
+    if (has_field) feature.SetField(layer->GetLayerDefn()->GetFieldCount() - 1, line.height);
     if (layer->CreateFeature(&feature) != OGRERR_NONE) fail(path, session);
   }
   if (in_transaction && dataset.CommitTransaction() != OGRERR_NONE) fail(path, session);

@@ -298,7 +298,7 @@ std::string to_text(const DrainReport& r) {
   std::string text;
   auto out = std::back_inserter(text);
   const auto row = [&](const char* name, const std::string& value) {
-    fmt::format_to(out, "{:<36}{}\n", name, value);
+    fmt::format_to(out, "{:<38}{}\n", name, value);
   };
   const Consistency& c = r.consistency;
   row("TIN", r.input);
