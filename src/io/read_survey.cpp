@@ -43,7 +43,8 @@ std::string in_digits(const Box2& box) {
 void check_options(const ReadOptions& options) {
   if (!options.target_crs.empty() && !options.assigned_crs.empty()) {
     throw Error(ErrorCode::Usage,
-                "a CRS can be transformed to or assigned, not both: give --t-crs or --a-crs");
+                "a CRS can be transformed to or assigned, not both: give --t-crs or --a-crs; what the "
+                "sources are in is --s-crs");
   }
   if (options.coords) {
     for (const std::string& crs : {options.source_crs, options.assigned_crs}) {
