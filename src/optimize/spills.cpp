@@ -21,8 +21,8 @@
 //
 // And no vertex can have less water on it when all pits are full. The water of a pit passes, spill by spill,
 // to lower pits and out. Say that any labelling lets it out at height t or below: then the pit's spill, which
-// is as low as it can be, is at most t, and so is, by induction, that of each pit that it comes to next, which
-// that labelling and the links together connect with it up to t. Any other vertex leads down to a pit.
+// is as low as it can be, is at most t, and so is, by induction, that of each pit that it comes to next,
+// which that labelling and the links together connect with it up to t. Any other vertex leads down to a pit.
 //
 // Where depth does not come first it is the sum over heights of the number of sets without ROOT, under
 // whatever links are chosen: pit_terms.hpp counts those, with the height to the next change as the weight of

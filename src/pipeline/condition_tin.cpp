@@ -100,6 +100,29 @@ std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, st
   return list;
 }
 
+std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes,
+                                                double metres_per_unit) {
+  // More than errors of heights explain: on five DEMs, two of them from radar, 16 m is the most.
+  constexpr double kLargeMetres = 20;
+  const auto size = [&](const ReportChange& change) {
+    const bool counts = change.step == condition_word(ConditionStep::MonotoneValleys);
+    return counts ? std::abs(change.after - change.before) * metres_per_unit : 0;
+  };
+  const auto large = std::count_if(changes.begin(), changes.end(),
+                                   [&](const ReportChange& change) { return size(change) > kLargeMetres; });
+  if (large == 0) return std::nullopt;
+  const ReportChange& most =
+      *std::max_element(changes.begin(), changes.end(),
+                        [&](const ReportChange& a, const ReportChange& b) { return size(a) < size(b); });
+  return fmt::format(
+      "monotone-valleys changes {} {} of drawn valleys by more than {} m, the largest by {:.2f} m: vertex {} "
+      "at "
+      "{:.10g}, {:.10g}, from {:.10g} to {:.10g}; if a line crosses a ridge there or a height is wrong, mend "
+      "that, or limit changes with --condition-max",
+      large, large == 1 ? "height" : "heights", kLargeMetres, size(most), most.vertex, most.x, most.y,
+      most.before, most.after);
+}
+
 FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& plane) {
   FeatureLayer layer{.name = "conditioned",
                      .geometry = FeatureGeometry::Point,

@@ -10,7 +10,9 @@
 #include <thalweg/pipeline/condition.hpp>
 #include <thalweg/pipeline/drain.hpp>
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace thalweg {
@@ -35,6 +37,10 @@ void check_condition(const ConditionConfig& config, const LabellingConfig& label
 /// there; no numbers: the same.
 std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, std::span<const Point2> written,
                                        std::span<const VertexId> number);
+/// A note if monotone valleys took a height far from where it was, with the place: more likely a line or a
+/// height is wrong. Heights in the TIN's unit.
+std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes,
+                                                double metres_per_unit);
 /// Points with their new height; heights in the TIN's unit.
 FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& plane);
 

@@ -237,8 +237,12 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   std::vector<FeatureLayer> layers = {
       pit_layer(loaded, table), path_layer(loaded, flow, paths), network_layer(loaded, flow, network),
       catchment_layer(loaded, flow, catchments, area_m2), inconsistency_layer(loaded, report.consistency)};
-  if (report.conditioned)
-    layers.push_back(change_layer(list_changes(changes, loaded.written_points(), {}), loaded.plane));
+  if (report.conditioned) {
+    const std::vector<ReportChange> list = list_changes(changes, loaded.written_points(), {});
+    const auto note = note_of_large_change(list, loaded.plane.vertical_metres_per_unit());
+    if (note) report.notes.push_back(*note);
+    layers.push_back(change_layer(list, loaded.plane));
+  }
   write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
   if (!config.mesh_path.empty()) {
     write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets}, config, outputs, progress);
@@ -337,7 +341,7 @@ std::string to_text(const DrainReport& r) {
       fmt::format("{}, by {:.2f} m together, {:.2f} m at most", c.rising_edges, c.rise_sum_m, c.rise_max_m));
   row("drawn ridge edges that are crossed", fmt::format("{} of {}", c.crossed_ridge_edges, c.ridge_edges));
   row("valley edges that are not drawn", fmt::format("{}", c.undrawn_valley_edges));
-  row("triangles with all corners on valleys", fmt::format("{}", c.triangles_on_valleys));
+  row("triangles with valley corners only", fmt::format("{}", c.triangles_on_valleys));
   row("flat triangles, flat edges", fmt::format("{}, {}", c.flat_triangles, c.flat_edges));
   if (r.swmm) {
     row("SWMM: nodes, conduits",

@@ -262,6 +262,8 @@ void describe_changes(const Labelled& labelled, const Terrain& terrain, const Ru
   for (const ConditionStep step : run.condition.steps) {
     report.conditioned->steps.push_back(condition_word(step));
   }
+  const auto note = note_of_large_change(report.conditioned->changes, run.plane.vertical_metres_per_unit());
+  if (note) report.notes.push_back(*note);
 }
 
 void write_changes(const Report& report, const RunContext& run, Progress& progress) {

@@ -284,7 +284,8 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
     HalfedgeId over;
     for (std::size_t side = 0; side < 3; ++side) {
       const HalfedgeId h = Tin::halfedge(t, side);
-      if (waiting[t.index()].has(side) && waiting[Tin::triangle_of(graph.mesh.twin(h)).index()].some()) over = h;
+      if (waiting[t.index()].has(side) && waiting[Tin::triangle_of(graph.mesh.twin(h)).index()].some())
+        over = h;
     }
     const HalfedgeId twin = graph.mesh.twin(over);
     const TriangleId next = Tin::triangle_of(twin);
