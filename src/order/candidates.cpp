@@ -73,6 +73,7 @@ class Finder {
  public:
   Finder(const Tin& ground, std::vector<OrderTriangle> triangles, const Progress& progress)
       : ground_(ground), progress_(progress) {
+    found_.points.assign(ground.points().begin(), ground.points().end());
     found_.triangles = std::move(triangles);
   }
 
@@ -310,6 +311,7 @@ void drop_triangles(Candidates& from, std::span<const std::uint8_t> dropped) {
     }
     to.crossings.first.push_back(static_cast<std::uint32_t>(to.crossings.items.size()));
   }
+  to.points = std::move(from.points);
   from = std::move(to);
 }
 

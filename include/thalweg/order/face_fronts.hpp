@@ -14,7 +14,8 @@ namespace thalweg {
 
 /// A front is what uncovered ground of a face has on its border. Paths from front 0 to the empty one are the
 /// triangulations of the face, each once: an arc covers what is left of its front's lowest edge by a
-/// triangle. Arcs ascend by `from`, and lead to higher numbers.
+/// triangle. In a large face the lowest edge is the one that comes first along it. Arcs ascend by `from`, and
+/// lead to higher numbers.
 struct FrontGraph {
   struct Arc {
     std::uint32_t from = 0;

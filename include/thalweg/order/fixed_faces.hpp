@@ -37,6 +37,7 @@ struct CandidateEdge {
 /// without it would have an edge that crosses it. Each triangulation is one of each face, and these do not
 /// know of each other. A face may touch itself in a vertex, hold fixed edges that dangle, and hold vertices.
 struct FixedFaces {
+  std::vector<Point2> points;            ///< by vertex
   std::vector<OrderTriangle> triangles;  ///< candidates, sorted
   std::vector<CandidateEdge> edges;      ///< sorted by ends
   /// For each triangle its sides from corner i to corner i + 1: twice the edge, plus 1 if it runs from b to
