@@ -119,15 +119,20 @@ void Pencil::insert(const Beside& fresh, std::vector<Beside>& nearest) const {
   nearest.insert(place, fresh);
 }
 
-void Pencil::list(const Start& start, std::vector<Beside>& nearest) {
+// Whether at most `most_` of them are inside the circle through u, v and one on the right; if not, the list is
+// not finished.
+bool Pencil::list(const Start& start, const Beside& corner, std::vector<Beside>& nearest) {
   nearest.clear();
+  bool few = true;
   search(
       start,
       [&](const Beside& found) {
         insert(found, nearest);
-        return true;
+        few = nearest.size() <= most_ || !inside(to_, from_, corner, nearest.back());
+        return few;
       },
       [&] { return nearest.size() > most_ ? nearest.back().cotangent + nearest.back().error : kUnbounded; });
+  return few;
 }
 
 Pencil::Beside Pencil::nearest(const Start& start) const {
@@ -163,8 +168,8 @@ bool Pencil::few_inside(const Start& start, const Beside& corner) {
   return counted_.size() <= most_;
 }
 
-// The faces that uv passes; false if there is a vertex on it, it is an edge of the ground, or it has too many
-// vertices of such faces on one side.
+// The faces that uv passes; false if there is a vertex on it, or it has too many vertices of such faces on one
+// side.
 bool Pencil::pass(VertexId u, VertexId v) {
   const Point2 from = ground_->point(u), to = ground_->point(v);
   HalfedgeId crossed;
@@ -212,18 +217,18 @@ bool Pencil::look_at(VertexId u, VertexId v) {
   passed_.clear();
   left_start_.clear();
   right_start_.clear();
-  if (!pass(u, v)) return false;
+  const bool in_ground = ground_->find_halfedge(u, v).valid() || ground_->find_halfedge(v, u).valid();
+  if (in_ground || !pass(u, v)) return false;
   look_from(u, v);
   const Beside on_left = nearest(left_start_);
   look_from(v, u);
   const Beside on_right = nearest(right_start_);
   if (!few_inside(right_start_, on_left)) return false;
   look_from(u, v);
-  if (!few_inside(left_start_, on_right)) return false;
+  if (!list(left_start_, on_right, left_)) return false;
   look_from(v, u);
-  list(right_start_, right_);
+  list(right_start_, on_left, right_);
   look_from(u, v);
-  list(left_start_, left_);
   return true;
 }
 

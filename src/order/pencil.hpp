@@ -71,7 +71,7 @@ class Pencil {
   [[nodiscard]] bool few_inside(const Start& start, const Beside& corner);
   template <class Meet, class Limit>
   void search(const Start& start, const Meet& meet, const Limit& limit);
-  void list(const Start& start, std::vector<Beside>& nearest);
+  bool list(const Start& start, const Beside& corner, std::vector<Beside>& nearest);
   void insert(const Beside& fresh, std::vector<Beside>& nearest) const;
   [[nodiscard]] std::optional<Beside> beside(VertexId x, const Position& at) const;
   [[nodiscard]] static bool reaches(const Border& border, double square, double cotangent);
