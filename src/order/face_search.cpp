@@ -184,9 +184,7 @@ void FaceSearch::note_conflicts() {
   conflicts_.assign(edges_.size() * words_, 0);
   for (const auto& [edge, number] : edges_) {
     std::uint64_t* const row = &conflicts_[number * words_];
-    const auto add = [&](std::uint32_t other) {
-      row[other / 32] |= std::uint64_t{3} << (2 * (other % 32));
-    };
+    const auto add = [&](std::uint32_t other) { row[other / 32] |= std::uint64_t{3} << (2 * (other % 32)); };
     if (!candidates_.edges[edge].free) std::fill_n(row, words_, ~std::uint64_t{0});
     add(number);
     for (const std::uint32_t crossed : candidates_.crossings.row(edge)) {

@@ -119,8 +119,8 @@ void Pencil::insert(const Beside& fresh, std::vector<Beside>& nearest) const {
   nearest.insert(place, fresh);
 }
 
-// Whether at most `most_` of them are inside the circle through u, v and one on the right; if not, the list is
-// not finished.
+// Whether at most `most_` of them are inside the circle through u, v and one on the right; if not, the list
+// is not finished.
 bool Pencil::list(const Start& start, const Beside& corner, std::vector<Beside>& nearest) {
   nearest.clear();
   bool few = true;
@@ -168,8 +168,8 @@ bool Pencil::few_inside(const Start& start, const Beside& corner) {
   return counted_.size() <= most_;
 }
 
-// The faces that uv passes; false if there is a vertex on it, or it has too many vertices of such faces on one
-// side.
+// The faces that uv passes; false if there is a vertex on it, or it has too many vertices of such faces on
+// one side.
 bool Pencil::pass(VertexId u, VertexId v) {
   const Point2 from = ground_->point(u), to = ground_->point(v);
   HalfedgeId crossed;
