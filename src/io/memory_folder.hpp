@@ -21,7 +21,8 @@ class MemoryFolder {
   [[nodiscard]] const std::string& path() const { return path_; }
 
   /// Copies the main file to `written`, and every other to a file of its own name beside the target, by way
-  /// of `pending`; a .prj that says the same stays. Throws: what `PendingOutputs::add` throws; Error{WriteFailed}.
+  /// of `pending`; a .prj that says the same stays. Throws: what `PendingOutputs::add` throws;
+  /// Error{WriteFailed}.
   void deliver(const std::string& written, PendingOutputs& pending, Overwrite mode) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Water on a TIN by plain code: depths of pits height by height, full pits, and which drawn valleys drain.
+/// Water on a TIN by plain code: depths of pits height by height, and which drawn valleys drain.
 
 #include "support/plain_surface.hpp"
 
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -62,35 +61,6 @@ class PlainWater {
       depth += static_cast<std::int64_t>(closed_pools(*here)) * step;
     }
     return depth;
-  }
-
-  /// How high water stands on each vertex if all pits are full; its own height where none does, or where it
-  /// is in no triangle. Lowered edge by edge from nothing, until nothing changes.
-  [[nodiscard]] std::vector<double> fill_levels() const {
-    constexpr double kDry = std::numeric_limits<double>::infinity();
-    std::vector<double> level(tin_.vertex_count(), kDry);
-    const auto lower = [&](VertexId v, double from) {
-      const double now = std::max(from, tin_.height(v));
-      const bool changes = now < level[v.index()];
-      if (changes) level[v.index()] = now;
-      return changes;
-    };
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const auto& [edge, triangles] : edges_) {
-        const auto [a, b] = edge;
-        const auto kind = kind_.find(edge);
-        const bool lake =
-            kind != kind_.end() && has(kind->second, EdgeKind::Lake) && tin_.height(a) == tin_.height(b);
-        const double outside = triangles.size() < 2 || lake ? -kDry : kDry;
-        changed |= lower(a, std::min(outside, level[b.index()]));
-        changed |= lower(b, std::min(outside, level[a.index()]));
-      }
-    }
-    for (std::size_t v = 0; v < level.size(); ++v) {
-      if (level[v] == kDry) level[v] = tin_.height(VertexId{v});
-    }
-    return level;
   }
 
   [[nodiscard]] bool on_valleys(const Triangle& t) const {

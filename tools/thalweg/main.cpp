@@ -5,6 +5,7 @@
 #include "pipeline/one_of.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <fmt/format.h>
@@ -14,6 +15,8 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <memory>
 #include <new>
 #include <regex>
@@ -165,6 +168,22 @@ Progress& progress_of(const Common& common) {
   return *progress;
 }
 
+constexpr const char* kNoMemory = "the machine has not enough memory for this input; nothing was written";
+
+// Where memory ends within a library that lets no exception pass, nothing can be unwound.
+[[noreturn]] void end_where_nothing_unwinds() {
+  abandon_pending_outputs();
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    for (const char* part : {"ERROR out-of-memory: ", kNoMemory, "\n"}) std::fputs(part, stderr);
+    ::_exit(kFailed);
+  } catch (...) {
+    std::fputs("ERROR internal: an error where none may pass; nothing was written\n", stderr);
+  }
+  std::abort();
+}
+
 void print(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw Error(ErrorCode::WriteFailed,
@@ -178,6 +197,7 @@ int main(int argc, char** argv) {
   using namespace thalweg;
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(cli::end_where_nothing_unwinds);
   try {
     cli::watch_signals();
     return cli::run(argc, argv);
@@ -188,8 +208,7 @@ int main(int argc, char** argv) {
     if (error.code() == ErrorCode::Cancelled) cli::claim_interruption();
     return cli::fail(error_name(error.code()), error.what(), status);
   } catch (const std::bad_alloc&) {
-    return cli::fail("out-of-memory", "the machine has not enough memory for this input; nothing was written",
-                     cli::kFailed);
+    return cli::fail("out-of-memory", cli::kNoMemory, cli::kFailed);
   } catch (const std::exception& error) {
     if (cli::lacks_threads(error)) {
       return cli::fail(

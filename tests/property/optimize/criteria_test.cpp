@@ -1,6 +1,7 @@
 // Every criterion, alone and before every other one, against all first-order triangulations.
 #include "support/first_order_scene.hpp"
 #include "support/plain_criteria.hpp"
+#include "support/plain_fill.hpp"
 
 #include <thalweg/optimize/optimize.hpp>
 
@@ -103,7 +104,7 @@ TEST(Criteria, LeastDepthLeavesTheLeastWaterOnEveryVertex) {
     SCOPED_TRACE("scene " + std::to_string(i));
     const std::size_t count = scene.quadrilaterals.size();
     const auto levels_of = [&](const Labels& flipped) {
-      return PlainWater(with_diagonals(scene.tin, scene.quadrilaterals, flipped), 1, 1).fill_levels();
+      return fill_levels(with_diagonals(scene.tin, scene.quadrilaterals, flipped));
     };
     const std::vector<double> delaunay = levels_of(Labels(count, 0));
     std::vector<double> least = delaunay;
