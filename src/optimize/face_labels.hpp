@@ -40,6 +40,10 @@ template <std::size_t Criteria>
 FaceLabels<Criteria> label_face(const FaceModel<Criteria>& model, const FrontGraph& graph,
                                 const LabelLimits& limits);
 
+/// Adds labels of the same face. Pre: both are of one model.
+template <std::size_t Criteria>
+void add_labels(const FaceLabels<Criteria>& more, FaceLabels<Criteria>& labels);
+
 /// Notes which candidates at sides of faces no label need have. Complexity: linear in labels and sides.
 template <std::size_t Criteria>
 void note_possible(const FaceSides& sides, const std::vector<FaceLabels<Criteria>>& faces,

@@ -261,33 +261,15 @@ class Builder {
   std::vector<std::uint32_t> variable_;    ///< by node
 };
 
-/// The one path of the Delaunay triangulation; none if it has other triangles than candidates in the face.
+/// The path of the Delaunay triangulation; none if it has other triangles than candidates in the face.
 std::optional<FrontGraph> delaunay_path(const Tin& delaunay, const FixedFaces& faces, std::size_t face) {
-  const auto triangles = faces.faces.row(face);
-  FrontGraph graph;
-  std::vector<std::uint32_t> all, covered;
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const OrderTriangle& t = faces.triangles[triangles[i]];
-    const auto& sides = faces.sides[triangles[i]];
-    std::copy_if(sides.begin(), sides.end(), std::back_inserter(all),
-                 [&](std::uint32_t side) { return !faces.edges[side / 2].free; });
-    const HalfedgeId ab = delaunay.find_halfedge(t.corners[0], t.corners[1]);
-    if (!ab.valid() || delaunay.apex(ab) != t.corners[2]) continue;
-    covered.insert(covered.end(), sides.begin(), sides.end());
-    graph.arcs.push_back({graph.front_count, graph.front_count + 1, i});
-    ++graph.front_count;
+  std::vector<std::uint8_t> chosen;
+  for (const std::uint32_t t : faces.faces.row(face)) {
+    const Triangle& corners = faces.triangles[t].corners;
+    const HalfedgeId ab = delaunay.find_halfedge(corners[0], corners[1]);
+    chosen.push_back(ab.valid() && delaunay.apex(ab) == corners[2] ? 1 : 0);
   }
-  graph.empty_front = graph.front_count++;
-  std::sort(all.begin(), all.end());
-  std::sort(covered.begin(), covered.end());
-  const auto is_covered = [&](std::uint32_t side) {
-    return std::binary_search(covered.begin(), covered.end(), side);
-  };
-  const bool inside = std::all_of(covered.begin(), covered.end(), [&](std::uint32_t side) {
-    return !faces.edges[side / 2].free || is_covered(side ^ 1U);
-  });
-  if (!inside || !std::all_of(all.begin(), all.end(), is_covered)) return std::nullopt;
-  return graph;
+  return path_of(faces, face, chosen);
 }
 
 /// Of the fronts, those of the largest order that the limit allows; none if no triangulation is at hand.
@@ -353,6 +335,33 @@ FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const Side
                                     const std::vector<FaceLabels<Criteria>>& faces, PlateauNodes* pits,
                                     std::span<const PlateauSet> closed) {
   return Builder<Criteria>(terms, sides, faces).run(pits, closed);
+}
+
+std::optional<FrontGraph> path_of(const FixedFaces& faces, std::size_t face,
+                                  std::span<const std::uint8_t> chosen) {
+  const auto triangles = faces.faces.row(face);
+  FrontGraph graph;
+  std::vector<std::uint32_t> all, covered;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const auto& sides = faces.sides[triangles[i]];
+    std::copy_if(sides.begin(), sides.end(), std::back_inserter(all),
+                 [&](std::uint32_t side) { return !faces.edges[side / 2].free; });
+    if (chosen[i] == 0) continue;
+    covered.insert(covered.end(), sides.begin(), sides.end());
+    graph.arcs.push_back({graph.front_count, graph.front_count + 1, i});
+    ++graph.front_count;
+  }
+  graph.empty_front = graph.front_count++;
+  std::sort(all.begin(), all.end());
+  std::sort(covered.begin(), covered.end());
+  const auto is_covered = [&](std::uint32_t side) {
+    return std::binary_search(covered.begin(), covered.end(), side);
+  };
+  const bool inside = std::all_of(covered.begin(), covered.end(), [&](std::uint32_t side) {
+    return !faces.edges[side / 2].free || is_covered(side ^ 1U);
+  });
+  if (!inside || !std::all_of(all.begin(), all.end(), is_covered)) return std::nullopt;
+  return graph;
 }
 
 SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::size_t face,

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,11 @@ struct SearchedFace {
 /// not, or of the Delaunay triangulation alone. Throws: Error{SizeLimit} if that is none of the face.
 SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::size_t face,
                            std::size_t work_limit);
+
+/// The one path of the triangulation that has those of the face's candidates which are marked with 1; none if
+/// these do not cover the face. Pre: they do not overlap.
+std::optional<FrontGraph> path_of(const FixedFaces& faces, std::size_t face,
+                                  std::span<const std::uint8_t> chosen);
 
 /// Joins nodes that every triangulation of some face joins. Complexity: arcs of all graphs and links of their
 /// faces.

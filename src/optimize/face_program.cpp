@@ -306,6 +306,15 @@ FaceLabels<Criteria> label_face(const FaceModel<Criteria>& model, const FrontGra
 }
 
 template <std::size_t Criteria>
+void add_labels(const FaceLabels<Criteria>& more, FaceLabels<Criteria>& labels) {
+  const auto append = [](const auto& from, auto& to) { to.insert(to.end(), from.begin(), from.end()); };
+  append(more.triangulations.triangles, labels.triangulations.triangles);
+  append(more.unary, labels.unary);
+  for (std::size_t s = 0; s < labels.side.size(); ++s) append(more.at_side[s], labels.at_side[s]);
+  for (std::size_t l = 0; l < labels.link.size(); ++l) append(more.joins[l], labels.joins[l]);
+}
+
+template <std::size_t Criteria>
 void note_possible(const FaceSides& sides, const std::vector<FaceLabels<Criteria>>& faces,
                    SideWeights<Criteria>& weights) {
   for (const FaceLabels<Criteria>& labels : faces) {
@@ -318,6 +327,9 @@ void note_possible(const FaceSides& sides, const std::vector<FaceLabels<Criteria
   }
 }
 
+template void add_labels(const FaceLabels<1>&, FaceLabels<1>&);
+template void add_labels(const FaceLabels<2>&, FaceLabels<2>&);
+template void add_labels(const FaceLabels<5>&, FaceLabels<5>&);
 template void note_possible(const FaceSides&, const std::vector<FaceLabels<1>>&, SideWeights<1>&);
 template void note_possible(const FaceSides&, const std::vector<FaceLabels<2>>&, SideWeights<2>&);
 template void note_possible(const FaceSides&, const std::vector<FaceLabels<5>>&, SideWeights<5>&);

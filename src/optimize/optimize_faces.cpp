@@ -2,8 +2,8 @@
 //
 // 1. The fronts of each face are found, and by them its labels: the triangulations that may be best for
 //    something that is chosen in other faces (face_program.cpp). A face with too many fronts or labels has as
-//    labels some of those; then a second network, in which one label stands for all that the face has, gives
-//    the bound.
+//    labels some of those, and if pits are counted what the heuristics for them choose there; then a second
+//    network, in which one label stands for all that the face has, gives the bound.
 // 2. Each criterion is a level of costs, local minima included (face_network.cpp). The network is solved
 //    (label_solver.cpp).
 // 3. Pits: if the choice leaves more than its costs tell, there are sets of plateaus whose outlets lead to
@@ -18,6 +18,7 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/optimize/optimize_faces.hpp>
+#include <thalweg/optimize/pit_heuristics.hpp>
 
 #include <algorithm>
 #include <map>
@@ -125,6 +126,7 @@ class FaceRun {
     if (pits_ && pit_level_ < count) terms.pit_level = pit_level_;
     SideWeights<Criteria> sides = weigh_sides(terms, progress_);
     std::vector<FaceLabels<Criteria>> labels = label_faces(terms, sides);
+    offer_heuristics(terms, sides, labels);
     Choice choice = solve_for(terms, sides, labels);
     if (choice.partial_faces > 0) {
       relax_partial(terms, sides, labels);
@@ -164,6 +166,29 @@ class FaceRun {
     const std::size_t share = kMostComparisons / std::max<std::size_t>(turn.size(), 1);
     label(1, {std::min(label_limits_.most_comparisons, share), label_limits_.few_labels});
     return labels;
+  }
+
+  /// What the heuristics choose in faces that are not complete becomes labels there.
+  void offer_heuristics(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
+                        std::vector<FaceLabels<Criteria>>& labels) {
+    const bool whole = std::all_of(labels.begin(), labels.end(), [](const auto& l) { return l.complete; });
+    if (whole || !terms.pit_level || !can_remove_pits(delaunay_, faces_)) return;
+    if (offered_.empty()) {
+      for (const PitHeuristic heuristic : {PitHeuristic::Flip, PitHeuristic::Hull})
+        offered_.push_back(remove_pits(delaunay_, faces_, heuristic, progress_));
+    }
+    const std::vector<PlateauLink> links = links_for(terms);
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+      if (labels[f].complete) continue;
+      const FaceModel<Criteria> model = model_face(terms, sides, links, f);
+      for (const std::vector<OrderTriangle>& offer : offered_) {
+        std::vector<std::uint8_t> chosen;
+        for (const std::uint32_t t : model.triangles)
+          chosen.push_back(std::binary_search(offer.begin(), offer.end(), faces_.triangles[t]) ? 1 : 0);
+        if (const auto path = path_of(faces_, f, chosen))
+          add_labels(label_face(model, *path, LabelLimits{}), labels[f]);
+      }
+    }
   }
 
   void relax_partial(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
@@ -412,6 +437,7 @@ class FaceRun {
   Progress& progress_;
   LabelLimits label_limits_;
   std::vector<SearchedFace> searched_;
+  std::vector<std::vector<OrderTriangle>> offered_;  ///< triangulations of the heuristics, once asked for
   FaceSides sides_;
   std::optional<PlateauNodes> pits_;
   std::size_t pit_level_ = 0;

@@ -300,10 +300,15 @@ std::size_t count_new_edges(const Tin& tin, const Tin& delaunay) {
 
 }  // namespace
 
+bool can_remove_pits(const Tin& delaunay, const FixedFaces& faces) {
+  const auto triangles = delaunay.triangles();
+  return std::all_of(triangles.begin(), triangles.end(),
+                     [&](const Triangle& corners) { return find_candidate(faces, corners) != nullptr; });
+}
+
 std::vector<OrderTriangle> remove_pits(const Tin& delaunay, const FixedFaces& faces, PitHeuristic heuristic,
                                        const Progress& progress) {
-  for (const Triangle& corners : delaunay.triangles()) {
-    if (find_candidate(faces, corners) != nullptr) continue;
+  if (!can_remove_pits(delaunay, faces)) {
     throw Error(ErrorCode::Unsupported,
                 "the constrained Delaunay triangulation, from which the heuristics start, has a larger order "
                 "under this definition; take a definition that knows of lines, such as pathcon or sees-opp");

@@ -20,7 +20,7 @@ struct FaceOptimizeOptions {
   /// `order-sum`.
   std::optional<std::size_t> order_sum_after;
   /// Largest number of edges in the fronts of one face. Where there are more, only triangulations of a
-  /// smaller order are chosen from; the bound holds for all.
+  /// smaller order are chosen from, and those of the heuristics if pits are counted; the bound holds for all.
   std::size_t work_limit = 2'000'000;
   /// Largest number of comparisons of partial triangulations of one face: a count, so the answer is the same
   /// everywhere. From there on only `few_labels` are kept of those that have the same front; the bound holds

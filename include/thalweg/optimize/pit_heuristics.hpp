@@ -17,12 +17,15 @@ enum class PitHeuristic : std::uint8_t {
   Hull   ///< inserts edges that remove a pit, each into the Delaunay triangles that it crosses
 };
 
+/// Whether every triangle of `delaunay` is a candidate: under Std it may not be. Complexity: n log n.
+bool can_remove_pits(const Tin& delaunay, const FixedFaces& faces);
+
 /// A triangulation made of candidates of the faces, sorted, that a heuristic reaches from the Delaunay one.
 ///
 /// Laws (tests): (1) it is a triangulation of the faces' order; (2) its pits are at most those of
 /// `delaunay`, and no fewer than the optimum. The result depends on coordinates, not on ids.
-/// Pre: as optimize_faces. Throws: Error{Unsupported} if a triangle of `delaunay` is no candidate, as can be
-/// under Std; {Cancelled}. Complexity: n log n, and under Hull the hulls of edges at pits.
+/// Pre: as optimize_faces. Throws: Error{Unsupported} unless can_remove_pits; {Cancelled}. Complexity: n log
+/// n, and under Hull the hulls of edges at pits.
 std::vector<OrderTriangle> remove_pits(const Tin& delaunay, const FixedFaces& faces, PitHeuristic heuristic,
                                        const Progress& progress);
 

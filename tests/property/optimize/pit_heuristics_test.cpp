@@ -105,6 +105,32 @@ TEST(PitHeuristics, NeedTheDelaunayTriangulationToBeOfTheOrder) {
   }
 }
 
+TEST(PitHeuristics, AreLabelsOfFacesThatAreNotSearchedWhole) {
+  test::Random random;
+  std::vector<Point2> points;
+  std::vector<double> heights;
+  for (int i = 0; i < 500; ++i) {
+    points.push_back({random.real(0, 100), random.real(0, 100)});
+    heights.push_back(std::floor(random.real(0, 40)));
+  }
+  Progress progress;
+  const Tin tin = triangulate(points, heights, {}, progress);
+  const ConstrainedOrder order(tin);
+  const auto faces =
+      find_fixed_faces(tin, find_order_triangles(order, {.max_order = 3}, progress), {}, progress);
+  ASSERT_TRUE(faces);
+  FaceOptimizeOptions options{.common = {.criteria = {Criterion::LocalMinima}}, .work_limit = 1};
+  const FaceOptimizeResult result = optimize_faces(tin, *faces, options, progress);
+  const CriterionResult& pits = result.criteria[0];
+  EXPECT_EQ(result.partial_faces, result.faces);
+  EXPECT_LT(pits.result, pits.delaunay);
+  options.work_limit = FaceOptimizeOptions{}.work_limit;
+  EXPECT_LE(optimize_faces(tin, *faces, options, progress).criteria[0].result, pits.result);
+  for (const PitHeuristic heuristic : kHeuristics) {
+    EXPECT_LE(pits.result, optimize_faces_by(heuristic, tin, *faces, options, progress).criteria[0].result);
+  }
+}
+
 using Places = std::set<std::array<Point2, 3>>;
 
 Places places_of(const std::vector<Point2>& points, const std::vector<OrderTriangle>& triangles) {
