@@ -83,7 +83,7 @@ std::uint32_t FrontList::number(std::span<const std::uint64_t> front) {
   edges_ += edges;
   bits_.insert(bits_.end(), front.begin(), front.end());
   slots_[at] = fresh;
-  if (2 * size_ > slots_.size()) grow();
+  if (std::size_t{2} * size_ > slots_.size()) grow();
   return fresh;
 }
 
