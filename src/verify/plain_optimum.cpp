@@ -265,8 +265,12 @@ class BoundChecker {
       return;
     }
     const Stage* stage = stage_of(true);
-    if (claim.name == "max-degree" && claim.bound <= mean_degree()) {
-      judge(true, "", 0, finding);  // no diagonal changes the number of edges, and the largest is no less
+    // No term is below 0, the largest of none; and no diagonal changes the number of edges.
+    const bool least_of_all = claim.name == "max-degree"
+                                  ? claim.bound <= mean_degree()
+                                  : criterion.combines == Combines::Largest && claim.bound <= 0;
+    if (least_of_all) {
+      judge(true, "", 0, finding);
     } else if (stage != nullptr) {
       judge_extreme(*stage, claim, finding);
     } else {

@@ -167,6 +167,20 @@ TEST(Check, AForgedOptimumOfALargestValueIsRejected) {
   EXPECT_EQ(t.line("normal-angle-max, optimal").verdict, Verdict::Broken);
 }
 
+TEST(Check, NoInnerEdgeLeavesALargestValueOfNothing) {
+  Terrain t;
+  t.points = {{0, 0}, {1, 0}, {0, 1}};
+  t.heights = {0, 1, 2};
+  t.triangles = {triangle(0, 1, 2)};
+  t.constraints = {};
+  t.claims = {.vertices = 3, .triangles = 1, .constraint_edges = 0};
+  for (const char* const name : {"normal-angle-max", "area-ratio-max"}) {
+    t.claims.criteria = {{.name = name, .optimal = true}};
+    EXPECT_EQ(t.line(std::string(name) + ", result").verdict, Verdict::Holds);
+    EXPECT_EQ(t.line(std::string(name) + ", optimal").verdict, Verdict::Holds);
+  }
+}
+
 TEST(Check, AValueOffInTheSixthDigitIsRejected) {
   Terrain t;
   t.claims.criteria = {{.name = "edge-length"}};
