@@ -4,11 +4,15 @@
 // ends in _z, else the only one there is. Faces may be stored corners first. Constraint edges are read where
 // `write_tin` put them.
 #include "io/netcdf_file.hpp"
+#include "io/netcdf_length.hpp"
 #include "io/tin_format.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -21,7 +25,15 @@ namespace {
 class UgridReader {
  public:
   UgridReader(const std::string& path, Progress& progress)
-      : path_(path), progress_(progress), file_(path, path, NetcdfFile::Mode::Read) {}
+      : path_(path), progress_(progress), file_(path, path, NetcdfFile::Mode::Read) {
+    std::error_code unknown;
+    const auto length = static_cast<double>(std::filesystem::file_size(path, unknown));
+    const double promised = promised_netcdf_length(path);
+    if (!unknown && length < promised) {
+      fail(ErrorCode::BadFormat,
+           fmt::format("is cut off: its header promises {:.0f} bytes, there are {:.0f}", promised, length));
+    }
+  }
 
   TinFile read() {
     const int mesh = find_mesh();

@@ -179,6 +179,11 @@ def netcdf():
     return ["liar.nc"], "bad-format or unreadable or unsupported"
 
 
+def netcdf_cut():
+    pathlib.Path("liar.nc").write_bytes(whole(".nc")[:-20])
+    return ["liar.nc"], "bad-format"
+
+
 def geopackage():
     pathlib.Path("liar.gpkg").write_bytes(whole(".gpkg"))
     with sqlite3.connect("liar.gpkg") as base:
@@ -203,7 +208,7 @@ CASES = {
     "OFF: faces": liar(".off", replaced(rb"OFF\n(\d+) \d+", rb"OFF\n\1 4000000000")),
     "STL: triangles": liar(".stl", patched(80, struct.pack("<I", 4000000000))),
     "LandXML: corner": liar(".xml", replaced(rb"(<F[^>]*>)\d+", rb"\g<1>4000000000")),
-    "LAS: points": las, "UGRID: nodes": netcdf, "GPKG: corner": geopackage,
+    "LAS: points": las, "UGRID: nodes": netcdf, "UGRID: cut off": netcdf_cut, "GPKG: corner": geopackage,
 }
 
 

@@ -257,6 +257,22 @@ TEST_P(DamagedFiles, AreReadOrRefused) {
   }
 }
 
+TEST(ReadTin, NetcdfCutAnywhereIsRefused) {
+  const TempFolder folder;
+  const std::string path = folder.file("a.nc");
+  const Tin tin = make_grid_tin(3, 3);
+  write_file(path, {.tin = tin});
+  const std::string good = test::read_text(path);
+  constexpr std::size_t kPadding = 4;  // after the last value
+  for (std::size_t cut = kPadding; cut < good.size(); cut += 1 + cut / 20) {
+    std::filesystem::remove(path);
+    write_text(path, good.substr(0, good.size() - cut));
+    EXPECT_THROW(read_file(path), Error) << cut << " of " << good.size() << " bytes are missing";
+  }
+  write_text(path, good.substr(0, good.size() - 2 * kPadding));
+  expect_error(BadFormat, {path, "cut off"}, [&] { read_file(path); });
+}
+
 TEST(ReadTin, PlyOfOthers) {
   const TempFolder folder;
   const std::string head =

@@ -1,0 +1,14 @@
+#pragma once
+
+/// How long a NetCDF file must be to hold what its header promises: libnetcdf reads what is missing as zeros.
+
+#include <string>
+
+namespace thalweg {
+
+/// Bytes up to the end of the last variable of a file in one of the classic formats (CDF-1, CDF-2, CDF-5); 0
+/// where the file is in another one, or its header breaks off: libnetcdf finds that out.
+/// Complexity: linear in the header.
+[[nodiscard]] double promised_netcdf_length(const std::string& path);
+
+}  // namespace thalweg
