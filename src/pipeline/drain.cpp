@@ -193,6 +193,15 @@ std::vector<HeightChange> condition(LoadedTin& loaded, std::span<const VertexId>
   return std::move(conditioned.changes);
 }
 
+/// What was changed, as a layer; notes in the report where a height changed by much.
+FeatureLayer changed_heights(const LoadedTin& loaded, std::span<const HeightChange> changes,
+                             DrainReport& report) {
+  const std::vector<ReportChange> list = list_changes(changes, loaded.written_points(), {});
+  const auto note = note_of_large_change(list, loaded.plane.vertical_metres_per_unit());
+  if (note) report.notes.push_back(*note);
+  return change_layer(list, loaded.plane);
+}
+
 }  // namespace
 
 DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
@@ -237,12 +246,7 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   std::vector<FeatureLayer> layers = {
       pit_layer(loaded, table), path_layer(loaded, flow, paths), network_layer(loaded, flow, network),
       catchment_layer(loaded, flow, catchments, area_m2), inconsistency_layer(loaded, report.consistency)};
-  if (report.conditioned) {
-    const std::vector<ReportChange> list = list_changes(changes, loaded.written_points(), {});
-    const auto note = note_of_large_change(list, loaded.plane.vertical_metres_per_unit());
-    if (note) report.notes.push_back(*note);
-    layers.push_back(change_layer(list, loaded.plane));
-  }
+  if (report.conditioned) layers.push_back(changed_heights(loaded, changes, report));
   write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
   if (!config.mesh_path.empty()) {
     write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets}, config, outputs, progress);

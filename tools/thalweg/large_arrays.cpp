@@ -8,12 +8,14 @@
 #include <cstdlib>
 #include <new>
 
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): what manages memory stands on this.
+
 namespace {
 
 constexpr std::size_t kLargePage = std::size_t{1} << 21U;
 
 // Before the first of them: what is freed may not raise the limit from which on the system gives memory.
-const bool fixed_threshold = mallopt(M_MMAP_THRESHOLD, kLargePage) != 0;
+const bool kFixedThreshold = mallopt(M_MMAP_THRESHOLD, kLargePage) != 0;
 
 void* allocate(std::size_t size) {
   if (size < kLargePage) return std::malloc(size == 0 ? 1 : size);
@@ -42,3 +44,5 @@ void operator delete(void* memory) noexcept {
 void operator delete(void* memory, std::size_t /*size*/) noexcept {
   std::free(memory);
 }
+
+// NOLINTEND(cppcoreguidelines-no-malloc)
