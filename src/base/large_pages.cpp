@@ -1,35 +1,32 @@
 #include "base/large_pages.hpp"
 
-#include <thalweg/base/raw_vector.hpp>
-
 #include <sys/mman.h>
 
+#include <cstdlib>
 #include <new>
 
 namespace thalweg {
 
-void* allocate_pages(std::size_t bytes) {
-  if (bytes < kLargePage) return ::operator new(bytes);
-  const std::size_t size = (bytes + kLargePage - 1) / kLargePage * kLargePage;
-  void* memory = ::operator new (size, std::align_val_t{kLargePage});
-  madvise(memory, size, MADV_HUGEPAGE);  // advice: no harm if it is not taken
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): what manages memory stands on this.
+
+void* try_allocate_pages(std::size_t bytes) noexcept {
+  if (bytes < kLargePage) return std::malloc(bytes == 0 ? 1 : bytes);
+  const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
+  if (whole < bytes) return nullptr;
+  void* memory = std::aligned_alloc(kLargePage, whole);
+  if (memory != nullptr) madvise(memory, whole, MADV_HUGEPAGE);  // advice: no harm if it is not taken
   return memory;
 }
 
-void free_pages(void* memory, std::size_t bytes) {
-  if (bytes < kLargePage) {
-    ::operator delete(memory);
-  } else {
-    ::operator delete (memory, std::align_val_t{kLargePage});
-  }
+void free_pages(void* memory) noexcept {
+  std::free(memory);
 }
 
-void* detail::allocate_raw(std::size_t bytes) {
-  return allocate_pages(bytes);
-}
+// NOLINTEND(cppcoreguidelines-no-malloc)
 
-void detail::free_raw(void* memory, std::size_t bytes) {
-  free_pages(memory, bytes);
+void* allocate_pages(std::size_t bytes) {
+  if (void* memory = try_allocate_pages(bytes)) return memory;
+  throw std::bad_alloc();
 }
 
 }  // namespace thalweg

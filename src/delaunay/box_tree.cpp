@@ -2,7 +2,7 @@
 //
 // 1. Boxes are laid out along the Hilbert order of their centres, and eight successive ones make a node
 //    (Kamel, Faloutsos, On packing R-trees, 1993). Clusters and outliers do not hurt, as they would a grid.
-// 2. A query far from all boxes ends at a grid of squares, without the tree.
+// 2. A query far from all segments ends at a grid of squares, without the tree.
 // 3. The box of a long oblique segment is mostly empty. Segments are cut into parts of equal length such that
 //    no part spans more than L in both x and y; L is chosen so that n segments have at most 2 n parts, or at
 //    most 16 n where they are few.
@@ -57,7 +57,6 @@ TouchedSquares::TouchedSquares(std::span<const Box2> boxes) {
 BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> items,
                  const Progress& progress) {
   if (boxes.empty()) return;
-  squares_ = TouchedSquares(boxes);
   std::vector<Point2> centres(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     centres[i] = {(boxes[i].x_min + boxes[i].x_max) / 2, (boxes[i].y_min + boxes[i].y_max) / 2};
@@ -106,7 +105,9 @@ BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress
       from = to;
     }
   }
-  return {boxes, items, progress};
+  BoxTree tree(boxes, items, progress);
+  tree.squares_ = TouchedSquares(boxes);
+  return tree;
 }
 
 }  // namespace thalweg

@@ -23,11 +23,12 @@ inline Box2 box_around(Point2 p, double margin) {
   return {p.x - margin, p.y - margin, p.x + margin, p.y + margin};
 }
 
-/// Squares of the plane, and which of them boxes touch: for queries far from all of them.
+/// Squares of the plane, and which of them boxes touch: for queries far from all of them. Made for none,
+/// every query may meet some.
 class TouchedSquares {
  public:
   TouchedSquares() = default;
-  /// About 64 squares a box. Touches nothing, and says so, if boxes cover too many of them.
+  /// About 64 squares a box. If boxes cover too many of them, it is as if made for none.
   explicit TouchedSquares(std::span<const Box2> boxes);
   /// False only if no box meets the query.
   [[nodiscard]] bool may_meet(const Box2& query) const {
@@ -52,7 +53,8 @@ class TouchedSquares {
   std::vector<bool> touched_;
 };
 
-/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 49 bytes a box.
+/// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 41 bytes a box, 8 more
+/// over segments.
 class BoxTree {
  public:
   BoxTree() = default;
@@ -72,6 +74,7 @@ class BoxTree {
   }
 
  private:
+  friend BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress);
   static constexpr std::size_t kChildren = 8;
 
   template <class Visitor>
@@ -91,7 +94,7 @@ class BoxTree {
 
   std::vector<std::vector<Box2>> levels_;  // from the leaves up
   std::vector<std::uint32_t> items_;
-  TouchedSquares squares_;
+  TouchedSquares squares_;  ///< over segments: between them lies much where no box is
 };
 
 /// The tree of segments, by index; a long one is covered by several boxes, so a visitor may meet an item more

@@ -1,7 +1,7 @@
 // 1. The header is walked: dimensions, attributes (skipped), variables with type, shape and first byte.
 // 2. A variable ends after its values; one with the unlimited dimension has a slab in each record, and a
-// record
-//    is as long as the slabs of all such variables, each padded to four bytes unless there is one only.
+//    record is as long as the slabs of all such variables, each padded to four bytes unless there is one
+//    only.
 //
 // Based on: Unidata, NetCDF Classic Format Specification (CDF-1, CDF-2, CDF-5). Numbers are doubles, so that
 // no header overflows them; files are shorter than 2^53 bytes.
@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <vector>
 
 namespace thalweg {
@@ -34,7 +35,7 @@ class ClassicHeader {
     read_dimensions();
     skip_attributes();
     read_variables();
-    return file_ ? end_of_values(records) : 0;
+    return file_ ? end_of_values(records) : std::numeric_limits<double>::infinity();
   }
 
  private:

@@ -6,8 +6,9 @@
 
 namespace thalweg {
 
-/// Bytes up to the end of the last variable of a file in one of the classic formats (CDF-1, CDF-2, CDF-5); 0
-/// where the file is in another one, or its header breaks off: libnetcdf finds that out.
+/// Bytes up to the end of the last variable of a file in one of the classic formats (CDF-1, CDF-2, CDF-5);
+/// infinite where its header breaks off, as one does that lies about how much it lists: libnetcdf would make
+/// room for all of it first. 0 where the file is in another format.
 /// Complexity: linear in the header.
 [[nodiscard]] double promised_netcdf_length(const std::string& path);
 

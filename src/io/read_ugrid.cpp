@@ -25,15 +25,7 @@ namespace {
 class UgridReader {
  public:
   UgridReader(const std::string& path, Progress& progress)
-      : path_(path), progress_(progress), file_(path, path, NetcdfFile::Mode::Read) {
-    std::error_code unknown;
-    const auto length = static_cast<double>(std::filesystem::file_size(path, unknown));
-    const double promised = promised_netcdf_length(path);
-    if (!unknown && length < promised) {
-      fail(ErrorCode::BadFormat,
-           fmt::format("is cut off: its header promises {:.0f} bytes, there are {:.0f}", promised, length));
-    }
-  }
+      : path_(found_whole(path)), progress_(progress), file_(path, path, NetcdfFile::Mode::Read) {}
 
   TinFile read() {
     const int mesh = find_mesh();
@@ -48,6 +40,17 @@ class UgridReader {
   }
 
  private:
+  static const std::string& found_whole(const std::string& path) {
+    std::error_code unknown;
+    const auto length = static_cast<double>(std::filesystem::file_size(path, unknown));
+    const double promised = promised_netcdf_length(path);
+    if (unknown || promised <= length) return path;
+    const std::string what =
+        std::isfinite(promised)
+            ? fmt::format("its header promises {:.0f} bytes, there are {:.0f}", promised, length)
+            : "its header breaks off, or lies about how much it lists";
+    throw Error(ErrorCode::BadFormat, path + ": is cut off: " + what);
+  }
   [[noreturn]] void fail(ErrorCode code, const std::string& what) const {
     throw Error(code, path_ + ": " + what);
   }

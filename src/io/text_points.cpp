@@ -23,7 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -126,7 +125,7 @@ class TextPoints : public SourceReader {
 
   struct Row {
     std::string_view text;
-    std::optional<RowParser::Coordinates> xyz;  ///< none: nothing was looked at but whether it parses
+    std::optional<RowParser::Coordinates> xyz;  ///< none: not as plain as that
   };
 
   void read_block(std::string_view block, const RowParser& parser, PointCollector& points) {

@@ -51,12 +51,11 @@ void check_heights(std::span<const double> heights, std::span<const Point2> poin
 
 Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
          std::span<const ConstraintEdge> constraints)
-    : points_(std::move(points)),
-      heights_(std::move(heights)),
-      triangles_(triangles.begin(), triangles.end()) {
+    : points_(std::move(points)), heights_(std::move(heights)) {
   check_heights(heights_, points_);
-  for (const Triangle& t : triangles_) check_corners(t, points_.size());
-  triangles_ = sort_triangles(triangles_, {}, points_.size(), Progress()).triangles;
+  for (const Triangle& t : triangles) check_corners(t, points_.size());
+  triangles_ = sort_triangles(triangles, {}, points_.size(), Progress()).triangles;
+  triangles = {};
   list_fans(Progress());
   link_halfedges();
   kinds_.assign(halfedge_count(), EdgeKind::None);

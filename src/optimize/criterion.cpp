@@ -241,8 +241,7 @@ constexpr std::array kDeclarations = {
     // where the pit spills. Equal to the sum of persistences in Edelsbrunner, Letscher, Zomorodian,
     // Topological persistence and simplification, 2002, and to the weight of a minimum spanning tree of the
     // edges, each at its higher end, less all heights. Where it is least, so is the water on every vertex
-    // when
-    // all pits are full, and its volume, whatever ground each vertex stands for (spills.cpp).
+    // when all pits are full, and its volume, whatever ground each vertex stands for (spills.cpp).
     Declaration{{Criterion::PitDepth, "pit-depth", "metres", kMinimise, Coupling::Plateau, Combination::Sum}},
     // Watershed-workflow and others repair these by hand.
     Declaration{.traits = {Criterion::ValleyTriangles, "valley-triangles", "count", kMinimise,

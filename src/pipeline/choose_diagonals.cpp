@@ -50,8 +50,7 @@ bool convex_as_written(const Quadrilateral& q, std::span<const Point2> written) 
 
 // Triangles keep their order and their first corner when others are dropped, so halfedges map by triangle.
 std::vector<Quadrilateral> on_surface(std::vector<Quadrilateral> found, const Terrain& terrain) {
-  const bool whole = std::find(terrain.keep.begin(), terrain.keep.end(), false) == terrain.keep.end();
-  if (whole && terrain.continuous.empty()) return found;
+  if (terrain.whole() && terrain.continuous.empty()) return found;
   const std::vector<std::uint32_t> index = surface_indices(terrain.keep);
   std::vector<Quadrilateral> kept;
   for (Quadrilateral q : found) {

@@ -115,9 +115,9 @@ std::optional<std::string> note_of_large_change(std::span<const ReportChange> ch
       *std::max_element(changes.begin(), changes.end(),
                         [&](const ReportChange& a, const ReportChange& b) { return size(a) < size(b); });
   return fmt::format(
-      "monotone-valleys changes {} {} of drawn valleys by more than {} m, the largest by {:.2f} m: vertex {} "
-      "at "
-      "{:.10g}, {:.10g}, from {:.10g} to {:.10g}; if a line crosses a ridge there or a height is wrong, mend "
+      "monotone-valleys changes {} {} of drawn valleys by more than {} m, the largest by {:.2f} m: "
+      "vertex {} at {:.10g}, {:.10g}, from {:.10g} to {:.10g}; if a line crosses a ridge there or a height "
+      "is wrong, mend "
       "that, or limit changes with --condition-max",
       large, large == 1 ? "height" : "heights", kLargeMetres, size(most), most.vertex, most.x, most.y,
       most.before, most.after);

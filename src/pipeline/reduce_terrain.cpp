@@ -61,17 +61,26 @@ std::string_view name_of(SimplifyStop stop) {
   return "exact";
 }
 
+/// Which vertices are in a triangle of the surface.
+std::vector<bool> used_vertices(const Terrain& terrain) {
+  const Tin& ground = terrain.ground;
+  std::vector<bool> used(ground.vertex_count(), false);
+  if (terrain.whole()) {
+    for (std::size_t v = 0; v < used.size(); ++v) used[v] = !ground.outgoing(VertexId{v}).empty();
+    return used;
+  }
+  for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
+    if (!terrain.keep[t]) continue;
+    for (const VertexId v : ground.triangle(TriangleId{t})) used[v.index()] = true;
+  }
+  return used;
+}
+
 }  // namespace
 
 Terrain without_lonely_vertices(Terrain terrain, TriangulationEngine engine, Progress& progress) {
   const Tin& ground = terrain.ground;
-  const bool whole = std::find(terrain.keep.begin(), terrain.keep.end(), false) == terrain.keep.end();
-  std::vector<bool> used(ground.vertex_count(), false);
-  for (std::size_t v = 0; v < used.size() && whole; ++v) used[v] = !ground.outgoing(VertexId{v}).empty();
-  for (std::size_t t = 0; t < ground.triangle_count() && !whole; ++t) {
-    if (!terrain.keep[t]) continue;
-    for (const VertexId v : ground.triangle(TriangleId{t})) used[v.index()] = true;
-  }
+  const std::vector<bool> used = used_vertices(terrain);
   if (std::find(used.begin(), used.end(), false) == used.end()) return terrain;
 
   std::vector<VertexId> renamed(ground.vertex_count()), stay;

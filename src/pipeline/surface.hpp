@@ -11,6 +11,7 @@
 #include <thalweg/terrain/pits.hpp>
 #include <thalweg/terrain/source_error.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -49,6 +50,9 @@ struct Terrain {
   std::vector<VertexId> number;             ///< per vertex its id in the outputs; empty: the same
   LeftOutPoints left_out;                   ///< of a simplified terrain, in triangles of the ground
   double error_limit = 0;                   ///< no diagonal may leave one farther off; units of height
+
+  /// Whether all triangles are part of the surface. Complexity: linear.
+  [[nodiscard]] bool whole() const { return std::find(keep.begin(), keep.end(), false) == keep.end(); }
 };
 
 /// What a run works with from the ground on.

@@ -58,7 +58,7 @@ class BorderFinder {
     if (group_of(t) != kSeveral) return;
     for (std::size_t side = 0; side < 3; ++side) {
       const FlowTarget target = graph_.target[3 * t.index() + side];
-      if (target.many()) __builtin_prefetch(graph_.pieces.at(target.index()));
+      if (target.many()) prefetch(graph_.pieces.at(target.index()));
     }
   }
 

@@ -2,6 +2,7 @@
 
 /// The borders between the grounds of groups of sinks, piece by piece.
 
+#include "base/prefetch.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/base/progress.hpp>
@@ -30,7 +31,7 @@ struct CatchmentBorders {
   /// Asks for the memory that `point` needs.
   void ask_for(const FlowGraph& graph, std::uint32_t number) const {
     const auto n = static_cast<std::uint32_t>(graph.mesh.vertex_count());
-    if (number >= n) __builtin_prefetch(graph.pieces.at(number - n));
+    if (number >= n) prefetch(graph.pieces.at(number - n));
   }
   /// What puts points into an order that depends on the TIN alone: vertices by its numbers, then ends of
   /// pieces by its halfedges.

@@ -5,6 +5,7 @@
 #include "terrain/flow_mesh.hpp"
 
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "delaunay/spatial_order.hpp"
 
 #include <algorithm>
@@ -62,8 +63,8 @@ void FlowMesh::number_vertices(const Progress& progress) {
   for_each_block(n, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (v + kAhead < end) {
-        __builtin_prefetch(&tin_.points()[order[v + kAhead]]);
-        __builtin_prefetch(&tin_.heights()[order[v + kAhead]]);
+        prefetch(&tin_.points()[order[v + kAhead]]);
+        prefetch(&tin_.heights()[order[v + kAhead]]);
       }
       const VertexId given{order[v]};
       given_vertex_[v] = given;
@@ -104,15 +105,15 @@ void FlowMesh::link_triangles(const Progress& progress) {
     for (std::size_t t = begin; t < end; ++t) {
       if (t + 2 * kAhead < end) {
         const TriangleId later = given_triangle_[t + 2 * kAhead];
-        __builtin_prefetch(&tin_.triangle(later));
-        __builtin_prefetch(&given_twins[3 * later.index()]);
+        prefetch(&tin_.triangle(later));
+        prefetch(&given_twins[3 * later.index()]);
       }
       if (t + kAhead < end) {
         const TriangleId next = given_triangle_[t + kAhead];
         for (std::size_t side = 0; side < 3; ++side) {
-          __builtin_prefetch(&own_vertex_[tin_.triangle(next)[side].index()]);
+          prefetch(&own_vertex_[tin_.triangle(next)[side].index()]);
           const HalfedgeId twin = given_twins[3 * next.index() + side];
-          if (twin.valid()) __builtin_prefetch(&own_triangle_[twin.index() / 3]);
+          if (twin.valid()) prefetch(&own_triangle_[twin.index() / 3]);
         }
       }
       const TriangleId given = given_triangle_[t];

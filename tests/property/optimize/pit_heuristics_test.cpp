@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -86,6 +87,27 @@ TEST(PitHeuristics, KeepTheOrderAndMakeNoPit) {
   EXPECT_GT(more[0], 0U);  // it is a heuristic; hulls find the optimum in all scenes as small as these
 }
 
+/// Whole heights, so that plateaus occur.
+struct Sample {
+  std::vector<Point2> points;
+  std::vector<double> heights;
+};
+
+Sample random_sample(test::Random& random, int count) {
+  Sample sample;
+  for (int i = 0; i < count; ++i) {
+    sample.points.push_back({random.real(0, 100), random.real(0, 100)});
+    sample.heights.push_back(std::floor(random.real(0, 40)));
+  }
+  return sample;
+}
+
+std::optional<FixedFaces> faces_of(const Tin& tin, std::uint32_t order) {
+  Progress progress;
+  const ConstrainedOrder ground(tin);
+  return find_fixed_faces(tin, find_order_triangles(ground, {.max_order = order}, progress), {}, progress);
+}
+
 TEST(PitHeuristics, NeedTheDelaunayTriangulationToBeOfTheOrder) {
   Progress progress;
   const Tin tin = triangulate({{0, 0}, {4, -1}, {8, 0}, {4, 1}}, {0, 1, 2, 3}, {}, progress);
@@ -107,17 +129,10 @@ TEST(PitHeuristics, NeedTheDelaunayTriangulationToBeOfTheOrder) {
 
 TEST(PitHeuristics, AreLabelsOfFacesThatAreNotSearchedWhole) {
   test::Random random;
-  std::vector<Point2> points;
-  std::vector<double> heights;
-  for (int i = 0; i < 500; ++i) {
-    points.push_back({random.real(0, 100), random.real(0, 100)});
-    heights.push_back(std::floor(random.real(0, 40)));
-  }
+  const auto [points, heights] = random_sample(random, 500);
   Progress progress;
   const Tin tin = triangulate(points, heights, {}, progress);
-  const ConstrainedOrder order(tin);
-  const auto faces =
-      find_fixed_faces(tin, find_order_triangles(order, {.max_order = 3}, progress), {}, progress);
+  const auto faces = faces_of(tin, 3);
   ASSERT_TRUE(faces);
   FaceOptimizeOptions options{.common = {.criteria = {Criterion::LocalMinima}}, .work_limit = 1};
   const FaceOptimizeResult result = optimize_faces(tin, *faces, options, progress);
@@ -146,19 +161,12 @@ Places places_of(const std::vector<Point2>& points, const std::vector<OrderTrian
 
 TEST(PitHeuristics, DoNotDependOnIds) {
   test::Random random;
-  std::vector<Point2> points;
-  std::vector<double> heights;
-  for (int i = 0; i < 1500; ++i) {
-    points.push_back({random.real(0, 100), random.real(0, 100)});
-    heights.push_back(std::floor(random.real(0, 40)));
-  }
+  auto [points, heights] = random_sample(random, 1500);
   std::array<Places, 2> before;
   for (int turn = 0; turn < 3; ++turn) {
     Progress progress;
     const Tin tin = triangulate(points, heights, {}, progress);
-    const ConstrainedOrder order(tin);
-    const auto faces =
-        find_fixed_faces(tin, find_order_triangles(order, {.max_order = 3}, progress), {}, progress);
+    const auto faces = faces_of(tin, 3);
     ASSERT_TRUE(faces);
     for (std::size_t h = 0; h < kHeuristics.size(); ++h) {
       const Places places = places_of(points, remove_pits(tin, *faces, kHeuristics[h], progress));
@@ -184,9 +192,7 @@ TEST(PitHeuristics, DoNotDependOnIds) {
 TEST(PitHeuristics, AreForPitsAtAGivenOrder) {
   Progress progress;
   const Tin tin = triangulate({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, {0, 1, 2, 3}, {}, progress);
-  const ConstrainedOrder order(tin);
-  const auto faces =
-      find_fixed_faces(tin, find_order_triangles(order, {.max_order = 1}, progress), {}, progress);
+  const auto faces = faces_of(tin, 1);
   ASSERT_TRUE(faces);
   const auto code = [&](const FaceOptimizeOptions& options) {
     try {

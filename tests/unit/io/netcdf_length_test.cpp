@@ -8,6 +8,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,17 @@ INSTANTIATE_TEST_SUITE_P(Classic, NetcdfLength,
                                          Shape{NC_64BIT_OFFSET, 1, 0, NC_DOUBLE},
                                          Shape{NC_64BIT_DATA, 2, 3, NC_INT},
                                          Shape{NC_64BIT_DATA, 2, 1, NC_INT64}));
+
+TEST(NetcdfLength, NoFileIsLongEnoughForAHeaderThatBreaksOff) {
+  const test::TempFolder folder;
+  const std::string path = folder.file("a.nc");
+  const std::string nothing(8, '\0');
+  const std::string many("\0\0\0\x0b\x7f\xff\xff\xff", 8);  // variables
+  for (const std::string& lists : {nothing, nothing + nothing + many}) {
+    test::write_text(path, std::string("CDF\x01\0\0\0\0", 8) + lists);
+    EXPECT_EQ(promised_netcdf_length(path), std::numeric_limits<double>::infinity());
+  }
+}
 
 TEST(NetcdfLength, NothingIsPromisedByOtherFormats) {
   const test::TempFolder folder;
