@@ -158,26 +158,28 @@ def forbidden_folder():
     judge("folder cannot be written", done, "write-failed", target, "locked")
 
 
+def during_a_run(output, change):
+    """The finished run, with CHANGE made after its checks before the work and before its source has told anything."""
+    os.mkfifo("slow.csv")
+    child = subprocess.Popen([BINARY, "build", "slow.csv", output, "-q"], stderr=subprocess.PIPE)
+    with open("slow.csv", "wb") as pipe:  # opens when the program does
+        change()
+        pipe.write(pathlib.Path("p.csv").read_bytes())
+    _, err = child.communicate()
+    os.remove("slow.csv")
+    return subprocess.CompletedProcess([], child.returncode, b"", err)
+
+
 def folder_goes():
     os.mkdir("gone")
-    child = subprocess.Popen([BINARY, "build", "big.csv", "gone/out.ply", "-q"], stderr=subprocess.PIPE)
-    time.sleep(0.2)
-    shutil.rmtree("gone")
-    _, err = child.communicate()
-    done = subprocess.CompletedProcess([], child.returncode, b"", err)
+    done = during_a_run("gone/out.ply", lambda: shutil.rmtree("gone"))
     judge("folder is removed during the run", done, "write-failed or not-found")
 
 
 def output_appears():
     """Another program makes the file during the run: it is not replaced unless that was asked for."""
-    if os.path.exists("late.ply"):
-        os.remove("late.ply")
-    child = subprocess.Popen([BINARY, "build", "big.csv", "late.ply", "-q"], stderr=subprocess.PIPE)
-    time.sleep(0.2)
-    target = new_target("late.ply")
-    _, err = child.communicate()
-    judge("output appears during the run", subprocess.CompletedProcess([], child.returncode, b"", err),
-          "output-exists", target)
+    done = during_a_run("late.ply", lambda: new_target("late.ply"))
+    judge("output appears during the run", done, "output-exists", "late.ply")
 
 
 # --- sources
@@ -274,7 +276,7 @@ def signals():
         for _ in range(4):
             target = new_target()
             child = subprocess.Popen([BINARY, "build", "big.csv", target, "--overwrite", "-q"], stderr=subprocess.PIPE)
-            time.sleep(0.1 + moments.random() * length)
+            time.sleep(moments.random() * length)
             child.send_signal(number)
             _, err = child.communicate()
             if child.returncode == -number:  # it came before the program could hear it
