@@ -354,6 +354,44 @@ Extended uncertain_valleys(const PlainMesh& mesh, PlainScale scale) {
   return length;
 }
 
+/// By what share another correct rounding may change a triangle's normal, if `in_space`, or its area: much
+/// where it is so thin that its area is small beside the square of its longest side.
+Extended rounding_of(const PlainMesh& mesh, PlainScale scale, bool in_space, Index a, Index b, Index c) {
+  constexpr Extended kRounding = 0x1p-50L;
+  const auto side = [&](Index v) {
+    return std::array<Extended, 3>{(Extended{mesh.at(v).x} - mesh.at(a).x) * scale.horizontal,
+                                   (Extended{mesh.at(v).y} - mesh.at(a).y) * scale.horizontal,
+                                   in_space ? (Extended{mesh.z[v]} - mesh.z[a]) * scale.vertical : 0};
+  };
+  const auto p = side(b), q = side(c);
+  const Extended longest = std::max({std::hypot(p[0], p[1], p[2]), std::hypot(q[0], q[1], q[2]),
+                                     std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2])});
+  const Extended product = longest * longest;
+  const Extended area =
+      std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
+  return area > kRounding * product ? kRounding * product / area : 1;
+}
+
+/// By how much another correct rounding may change the terms of such a part: all of them, or the one that
+/// it changes most.
+Extended rounding_of_edges(const PlainMesh& mesh, PlainScale scale, const std::string& name,
+                           Combines combines) {
+  constexpr Extended kHalfTurn = 180 / kDegrees;
+  const bool of_normals = name.starts_with("normal-angle");
+  Extended sum = 0, most = 0;
+  if (!of_normals && !name.starts_with("area-ratio")) return 0;
+  for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
+    Extended change =
+        rounding_of(mesh, scale, of_normals, a, b, l) + rounding_of(mesh, scale, of_normals, b, a, r);
+    if (name == "normal-angle-squares") change *= 2 * kHalfTurn;
+    if (name == "normal-angle-max") change *= kDegrees;
+    if (!of_normals) change *= edge_part(mesh, scale, name, a, b, l, r);
+    sum += change;
+    most = std::max(most, change);
+  });
+  return combines == Combines::Sum ? sum : most;
+}
+
 PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterion& criterion) {
   if (criterion.depends == Depends::OnPlateau) {
     if (criterion.parts.front().name == "pit-depth") return pit_depth(mesh, scale);
@@ -377,7 +415,10 @@ PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterio
     if (terms.empty()) return {};
     const Extended value = static_cast<Extended>(criterion.combines == Combines::Largest ? *most : *least) /
                            kSteps * criterion.term_unit;
-    return {value, criterion.counts ? 0 : 2 * criterion.term_unit / kSteps + std::abs(value) * 1e-12L};
+    const Extended rounding =
+        rounding_of_edges(mesh, scale, criterion.parts.front().name, criterion.combines);
+    return {value,
+            criterion.counts ? 0 : 2 * criterion.term_unit / kSteps + std::abs(value) * 1e-12L + rounding};
   }
   Extended sum = std::accumulate(terms.begin(), terms.end(), Extended{0},
                                  [](Extended s, std::int64_t t) { return s + static_cast<Extended>(t); });
@@ -387,6 +428,7 @@ PlainValue value_of(const PlainMesh& mesh, PlainScale scale, const PlainCriterio
                                         : static_cast<Extended>(terms.size()) * parts / kSteps +
                                               std::abs(sum / kSteps) * 1e-12L;
   for (const PlainCriterion::Part& part : criterion.parts) {
+    tolerance += std::abs(part.weight) * rounding_of_edges(mesh, scale, part.name, Combines::Sum);
     if (part.name == "draining-valleys") tolerance += std::abs(part.weight) * uncertain_valleys(mesh, scale);
     if (part.name != "convex-edges" && part.name != "convex-vertices" && part.name != "mixed-vertices")
       continue;

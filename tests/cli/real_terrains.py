@@ -5,8 +5,10 @@ Usage: real_terrains.py BINARY TERRAINS OUTPUT_FOLDER [NAME...]
 
 For each terrain: status 0; both criteria optimal; `thalweg info` finds no violation; the pits and the sum of
 normal angles, computed here from the mesh alone, are those of the report; no more pits than the Delaunay TIN;
-each bound equals its result. Prints a table. Without the terrains it says so and passes.
+each bound equals its result; one and two threads give the same bytes, at order 1 and, of what is not too
+large, at order 2 and in drainage. Prints a table. Without the terrains it says so and passes.
 """
+import filecmp
 import json
 import math
 import os
@@ -14,6 +16,7 @@ import struct
 import subprocess
 import sys
 
+MOST_POINTS_AGAIN = 20_000
 DEMS = ["bigtujunga_srtm30", "jacksboro_lonlat", "slovenia_lidar1m", "tidal_marsh_nodata", "vermont_srtm90"]
 
 
@@ -123,6 +126,27 @@ def check(binary, report, mesh):
     return faults
 
 
+def threads_agree(binary, arguments, base, points):
+    """What differs between one thread and two."""
+    jobs = {"the main job": (["build", *arguments], ".ply")}
+    if points <= MOST_POINTS_AGAIN:
+        jobs["order 2"] = (["build", *arguments, "--order", "2"], ".ply")
+        jobs["drainage"] = (["drain", base + ".ply", base + ".gpkg", "--mesh"], ".nc")
+    faults = []
+    for job, (command, extension) in jobs.items():
+        meshes = [f"{base}_{threads}{extension}" for threads in (1, 2)]
+        for threads, mesh in enumerate(meshes, 1):
+            done = subprocess.run([binary, *command, mesh, "--threads", str(threads), "--overwrite", "-q"],
+                                  capture_output=True)
+            if done.returncode:
+                return [f"{job} with {threads} threads: {done.stderr.decode().strip()}"]
+        if not filecmp.cmp(*meshes, shallow=False):
+            faults.append(f"{job}: one thread and two give other bytes")
+        for mesh in meshes:
+            os.remove(mesh)
+    return faults
+
+
 def main():
     binary, root, out = sys.argv[1:4]
     if not os.path.isdir(root):
@@ -152,6 +176,7 @@ def main():
             print(f"{'':<30}smallest angles, 10 degree bins: Delaunay {r['tin']['angle_histogram_delaunay']} "
                   f"result {r['tin']['angle_histogram']}")
             faults = check(binary, r, base + ".ply")
+            faults += threads_agree(binary, arguments, base, r["input"]["points_used"])
         failed += bool(faults)
         for fault in faults:
             print(f"FAIL {name}: {fault}")
