@@ -36,6 +36,7 @@
 // pixel.
 #include "noding.hpp"
 
+#include "base/release.hpp"
 #include "box_tree.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -81,7 +82,7 @@ std::vector<Found> gather(std::vector<std::vector<Found>>& parts) {
   std::vector<Found> all;
   for (auto& part : parts) {
     all.insert(all.end(), part.begin(), part.end());
-    part = {};
+    release(part);
   }
   return all;
 }

@@ -5,6 +5,7 @@
 //    Both decide by the tie rule, which makes the outcome unique: no order matters.
 // 3. Finite cells become triangles of the vertices as they were given.
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "edge_insertion.hpp"
 #include "engine.hpp"
 #include "flat_delaunay.hpp"
@@ -26,14 +27,13 @@ namespace {
 
 constexpr std::size_t kBlock = 8192;
 
-LinkedTriangles finite_cells(std::span<const Cell> cells, std::uint32_t infinity) {
+void fill_finite(std::span<const Cell> cells, std::uint32_t infinity, LinkedTriangles& finite) {
   std::vector<TriangleId> place(cells.size());
   std::uint32_t count = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto [u, v, w] = cells[c].vertex;
     if (u != infinity && v != infinity && w != infinity) place[c] = TriangleId{count++};
   }
-  LinkedTriangles finite;
   finite.corners.resize(count);
   finite.twins.resize(3 * std::size_t{count});
   for_each_block(cells.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
@@ -48,7 +48,6 @@ LinkedTriangles finite_cells(std::span<const Cell> cells, std::uint32_t infinity
       }
     }
   });
-  return finite;
 }
 
 }  // namespace
@@ -56,11 +55,12 @@ LinkedTriangles finite_cells(std::span<const Cell> cells, std::uint32_t infinity
 Triangulated triangulate_flat(std::span<const Point2> points, std::span<const VertexPair> edges,
                               Progress& progress) {
   Triangulated result;
-  const std::vector<std::uint32_t> order = hilbert_order(points, progress);
+  std::vector<std::uint32_t> order = hilbert_order(points, progress);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   LargeVector<Point2> positions(points.size() + 1, Point2{kNaN, kNaN});
   for (std::size_t v = 0; v < order.size(); ++v) positions[v] = points[order[v]];
   const Positions at{positions};
+  const std::uint32_t infinity = at.infinity();
   LargeVector<Cell> cells = delaunay_cells(at, progress);
   progress.advance(0.9);
   if (!edges.empty() && !cells.empty()) {
@@ -77,11 +77,13 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Ve
       return result;
     }
   }
-  result.triangles = finite_cells(cells, at.infinity());
+  release(positions);
   if (!std::is_sorted(order.begin(), order.end())) {
     result.triangles.number.reserve(order.size());
     for (const std::uint32_t v : order) result.triangles.number.emplace_back(v);
   }
+  release(order);
+  fill_finite(cells, infinity, result.triangles);
   return result;
 }
 

@@ -2,6 +2,7 @@
 // anywhere in it; its faces are dropped, so that a cloud of points without any will do.
 #include "io/mesh_points.hpp"
 
+#include "base/release.hpp"
 #include "io/file_content.hpp"
 #include "io/point_collector.hpp"
 #include "io/spatial_reference.hpp"
@@ -68,7 +69,7 @@ std::unique_ptr<SourceReader> open_mesh(const SourceSpec& spec, const Progress& 
   for (const TinFormat& format : tin_format_table()) {
     if (format.read == nullptr || !format.recognises(head, spec.path)) continue;
     TinFile mesh = format.read(spec.path, quiet);
-    mesh.triangles = {};
+    release(mesh.triangles);
     if (mesh.points.empty()) throw Error(ErrorCode::EmptyInput, spec.path + " holds no vertices");
     if (mesh.crs.empty()) mesh.crs = read_prj_sidecar(spec.path);
     return std::make_unique<MeshPoints>(spec, std::move(mesh));

@@ -7,6 +7,7 @@
 // differs from
 //    the vertex's is no part of this surface.
 // 3. Constraint edges: the rows of "edges" with a kind, else the segments of "breaklines".
+#include "base/release.hpp"
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
 #include "io/spatial_reference.hpp"
@@ -203,7 +204,7 @@ class GpkgReader {
       }
       tin_.triangles.push_back(triangle);
     }
-    corners_ = {};
+    release(corners_);
   }
 
   void read_lines(OGRLayer& layer) {

@@ -1,6 +1,7 @@
 // A TIN from another one: under other ids, with other diagonals, with fewer triangles. What is next to what
 // is known, or changes in a few places: nothing is searched.
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/change_tin.hpp>
@@ -72,7 +73,7 @@ void flip(LinkedTriangles& triangles, HalfedgeId h) {
 
 RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress& progress) {
   check_numbers(number, tin.vertex_count());
-  tin.outgoing_ = {};
+  release(tin.outgoing_);
   RenumberedTin result;
   Tin& renumbered = result.tin;
   renumbered.points_.resize(tin.points_.size());
@@ -83,9 +84,9 @@ RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress
       renumbered.heights_[number[v].index()] = tin.heights_[v];
     }
   });
-  tin.points_ = {};
-  tin.heights_ = {};
-  if (!any_constraint(tin.kinds_)) tin.kinds_ = {};
+  release(tin.points_);
+  release(tin.heights_);
+  if (!any_constraint(tin.kinds_)) release(tin.kinds_);
   const RawVector<HalfedgeId> moved = renumbered.take({.corners = std::move(tin.triangles_),
                                                        .twins = std::move(tin.twins_),
                                                        .kinds = std::move(tin.kinds_),
@@ -103,7 +104,7 @@ Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges) {
                                            std::to_string(tin.target(h).value()) +
                                            " cannot be flipped: it is on the rim or constrained");
   }
-  tin.outgoing_ = {};
+  release(tin.outgoing_);
   LinkedTriangles changed{.corners = std::move(tin.triangles_),
                           .twins = std::move(tin.twins_),
                           .kinds = std::move(tin.kinds_),

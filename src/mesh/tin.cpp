@@ -5,6 +5,7 @@
 //    that a hub of many triangles costs no more than other vertices.
 // 3. Where neighbours are not known, the twin of a -> b is looked up in the fan of a.
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "sort_triangles.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -55,7 +56,7 @@ Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Tr
   check_heights(heights_, points_);
   for (const Triangle& t : triangles) check_corners(t, points_.size());
   triangles_ = sort_triangles(triangles, {}, points_.size(), Progress()).triangles;
-  triangles = {};
+  release(triangles);
   list_fans(Progress());
   link_halfedges();
   kinds_.assign(halfedge_count(), EdgeKind::None);
@@ -73,8 +74,8 @@ Tin::Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangle
 RawVector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress) {
   SortedTriangles sorted = sort_triangles(linked.corners, linked.number, points_.size(), progress);
   triangles_ = std::move(sorted.triangles);
-  linked.corners = {};
-  linked.number = {};
+  release(linked.corners);
+  release(linked.number);
   twins_.resize(halfedge_count());
   kinds_.resize(halfedge_count());
   std::atomic<std::size_t> rim = 0;

@@ -33,6 +33,7 @@ struct FirstOrderProblem {
 
   /// What the links have to connect. Pre: pits_first.
   [[nodiscard]] const PlateauGraph& connectivity() const { return depth_first ? spills : plateaus; }
+  [[nodiscard]] PlateauGraph& connectivity() { return depth_first ? spills : plateaus; }
 };
 
 /// Throws: Error{Usage} for a criterion given twice, a unit that is not positive, a width limit out of range;

@@ -199,10 +199,6 @@ class Run {
 
   void choose() {
     Labelling<Criteria>& labelling = problem_.labelling;
-    if (problem_.pits_first) {
-      labelling.link = problem_.connectivity().link;
-      labelling.node_count = problem_.connectivity().node_count;
-    }
     std::vector<CountedPits> counted = count_pits_below();
     const std::size_t first = counted.empty() ? problem_.sums.size() : counted.front().level;
     settle_from(0, first);
@@ -214,9 +210,15 @@ class Run {
     }
     // What decides where nothing was named needs no bound.
     if (completed_) limits_.effort /= kLessForCompletion;
+    if (problem_.pits_first) {
+      labelling.link =
+          counted.empty() ? std::move(problem_.connectivity().link) : problem_.connectivity().link;
+      labelling.node_count = problem_.connectivity().node_count;
+    }
     if (counted.empty()) {
       solution_ = solve_held(labelling);
       keep_limits();
+      if (problem_.pits_first) problem_.connectivity().link = std::move(labelling.link);
       return;
     }
     const std::size_t quadrilaterals = problem_.rank.size();

@@ -14,6 +14,7 @@
 #include "order/candidates.hpp"
 
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "base/union_find.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -252,13 +253,13 @@ void Finder::find_crossings() {
     Pairs all;
     for (Pairs& part : parts) {
       all.insert(all.end(), part.begin(), part.end());
-      part = {};
+      release(part);
     }
     return all;
   };
   Pairs all_passes = joined(passes);
   const Rows passing = rows_of(all_passes, ground_.triangle_count(), progress_);
-  all_passes = {};
+  release(all_passes);
   crossed.resize(std::max(blocks, passing.size() / kBlock + 1));
   std::atomic<std::size_t> pairs{0};
   for_each_block(passing.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {

@@ -16,6 +16,7 @@
 //    edge that blocks meets the disc either, its order is known, too: u sees all of it.
 // 4. Under ConfEdge and SeesOpp those between v and w count. With no edge that blocks all count, as in 3.
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "order/blocking_cells.hpp"
 #include "order/circumdisc.hpp"
 #include "order/fan_search.hpp"
@@ -251,7 +252,7 @@ std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
   std::vector<OrderTriangle> all;
   for (auto& part : found) {
     all.insert(all.end(), part.begin(), part.end());
-    part = {};
+    release(part);
   }
   if (pruning != FanPruning::NearEnds) return all;  // each found once, at its smallest id
   tbb::parallel_sort(all.begin(), all.end());

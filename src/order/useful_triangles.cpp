@@ -13,6 +13,7 @@
 //    the empty triangles of order at most k are listed: their third corner is among the k + 1 nearest
 //    vertices. A triangle that is none of the ground has such an edge.
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "order/pencil.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
@@ -135,7 +136,7 @@ class EdgeSearch {
     });
     for (std::vector<OrderTriangle>& part : found) {
       found_.insert(found_.end(), part.begin(), part.end());
-      part = {};
+      release(part);
     }
     return joined(fresh);
   }
@@ -144,7 +145,7 @@ class EdgeSearch {
     std::vector<EdgeKey> all;
     for (std::vector<EdgeKey>& part : parts) {
       all.insert(all.end(), part.begin(), part.end());
-      part = {};
+      release(part);
     }
     tbb::parallel_sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -182,7 +183,7 @@ class EdgeSearch {
     std::vector<OrderTriangle> by_corner(found_.size());
     std::vector<std::size_t> next(first.begin(), first.end() - 1);
     for (const OrderTriangle& t : found_) by_corner[next[t.corners[0].index()]++] = t;
-    found_ = {};
+    release(found_);
     for_each_block(next.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         std::sort(by_corner.begin() + static_cast<std::ptrdiff_t>(first[v]),

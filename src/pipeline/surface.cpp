@@ -7,6 +7,7 @@
 #include "pipeline/surface.hpp"
 
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "pipeline/choose_diagonals.hpp"
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/digest.hpp"
@@ -215,7 +216,7 @@ std::vector<std::uint8_t> describe_delaunay(const Labelled& labelled, const Terr
 /// Flips what was chosen, and measures errors at points left out before and after. Takes the Delaunay
 /// triangulation, of which none needs more then.
 void flip_chosen(Labelled& labelled, const Terrain& terrain, const RunContext& run, Report& report) {
-  labelled.quadrilaterals = {};
+  release(labelled.quadrilaterals);
   if (run.labelling.by_faces()) return;
   if (!report.simplification) {
     labelled.tin = flip_edges(std::move(labelled.delaunay), labelled.flips);

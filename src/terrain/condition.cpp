@@ -5,6 +5,7 @@
 // takes in what is near until it has twice its size, and is solved again. What comes out obeys all arcs and
 // is best for fewer of them, so it is best for all. Where a pool of changed vertices needs more than the
 // largest change it gets its heights back.
+#include "base/release.hpp"
 #include "terrain/isotonic.hpp"
 #include "terrain/pit_removal.hpp"
 #include "terrain/valley_lines.hpp"
@@ -105,7 +106,7 @@ class ValleyRegression {
   void join(std::uint32_t into, std::uint32_t from) {
     for (const std::uint32_t v : members_[from]) pool_[v] = into;
     members_[into].insert(members_[into].end(), members_[from].begin(), members_[from].end());
-    members_[from] = {};
+    release(members_[from]);
   }
 
   void grow(std::uint32_t pool) {
