@@ -22,11 +22,16 @@ void free_pages(void* memory) noexcept {
   std::free(memory);
 }
 
-// NOLINTEND(cppcoreguidelines-no-malloc)
-
 void* allocate_pages(std::size_t bytes) {
-  if (void* memory = try_allocate_pages(bytes)) return memory;
+  constexpr std::size_t kLine = 64;
+  const bool small = bytes < kLargePage;
+  if (void* memory =
+          small ? std::aligned_alloc(kLine, (bytes / kLine + 1) * kLine) : try_allocate_pages(bytes)) {
+    return memory;
+  }
   throw std::bad_alloc();
 }
+
+// NOLINTEND(cppcoreguidelines-no-malloc)
 
 }  // namespace thalweg

@@ -2,10 +2,10 @@
 
 /// Constraint edges for a Delaunay triangulation made of cells.
 
-#include "base/large_pages.hpp"
 #include "cells.hpp"
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/base/raw_vector.hpp>
 
 #include <optional>
 #include <span>

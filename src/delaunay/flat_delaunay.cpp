@@ -53,18 +53,18 @@ class Strips {
   bool triangulate(std::size_t strips);
   /// False if too much is unsafe.
   bool join();
-  [[nodiscard]] LargeVector<Cell> take_cells() { return std::move(cells_); }
+  [[nodiscard]] RawVector<Cell> take_cells() { return std::move(cells_); }
 
  private:
   void cut(std::size_t strips);
   [[nodiscard]] bool safe(const Cell& cell, std::size_t strip) const;
   std::vector<std::uint32_t> mark_unsafe();
-  void fill_seams(const LargeVector<Cell>& seam, std::span<const std::uint32_t> vertices,
+  void fill_seams(const RawVector<Cell>& seam, std::span<const std::uint32_t> vertices,
                   std::span<const std::uint32_t> unsafe);
 
   Positions at_;
   std::uint32_t count_;
-  LargeVector<Cell> cells_;
+  RawVector<Cell> cells_;
   std::vector<Strip> strips_;
   const Progress& progress_;
 };
@@ -166,7 +166,7 @@ bool Strips::join() {
   for (const std::uint32_t v : vertices) positions.push_back(at_[v]);
   positions.push_back(at_[at_.infinity()]);
   const auto count = static_cast<std::uint32_t>(vertices.size());
-  LargeVector<Cell> seam(cell_count(count));
+  RawVector<Cell> seam(cell_count(count));
   const std::vector<std::uint32_t> order = in_rounds(count, [](std::uint32_t) { return true; });
   if (!insert_all({positions}, order, seam, 0, progress_)) return false;
   vertices.push_back(at_.infinity());
@@ -174,7 +174,7 @@ bool Strips::join() {
   return true;
 }
 
-void Strips::fill_seams(const LargeVector<Cell>& seam, std::span<const std::uint32_t> vertices,
+void Strips::fill_seams(const RawVector<Cell>& seam, std::span<const std::uint32_t> vertices,
                         std::span<const std::uint32_t> unsafe) {
   // Sides between safe and unsafe cells, by their directed ends as the unsafe one has them.
   std::unordered_map<std::uint64_t, std::uint32_t> border;
@@ -235,7 +235,7 @@ void Strips::fill_seams(const LargeVector<Cell>& seam, std::span<const std::uint
 
 }  // namespace
 
-LargeVector<Cell> delaunay_cells(const Positions& at, const Progress& progress) {
+RawVector<Cell> delaunay_cells(const Positions& at, const Progress& progress) {
   const std::uint32_t count = at.infinity();
   const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const std::size_t strips = std::min<std::size_t>(threads, count / kLeastStrip);
@@ -243,7 +243,7 @@ LargeVector<Cell> delaunay_cells(const Positions& at, const Progress& progress) 
     Strips parallel(at, progress);
     if (parallel.triangulate(strips) && parallel.join()) return parallel.take_cells();
   }
-  LargeVector<Cell> cells(count < 3 ? 0 : cell_count(count));
+  RawVector<Cell> cells(count < 3 ? 0 : cell_count(count));
   const std::vector<std::uint32_t> order = in_rounds(count, [](std::uint32_t) { return true; });
   if (count < 3 || !insert_all(at, order, cells, 0, progress)) cells.clear();
   return cells;

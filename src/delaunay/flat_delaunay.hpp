@@ -2,10 +2,10 @@
 
 /// The Delaunay triangulation of points, on flat arrays and all threads.
 
-#include "base/large_pages.hpp"
 #include "cells.hpp"
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/base/raw_vector.hpp>
 
 #include <vector>
 
@@ -15,6 +15,6 @@ namespace thalweg::detail {
 /// Pre: distinct positions; vertices near in the plane have near ids (as along a Hilbert curve), or it is
 /// slow. The triangulation does not depend on the number of threads; how cells are numbered does.
 /// Throws: Error{Cancelled}. Complexity: n log n in practice.
-LargeVector<Cell> delaunay_cells(const Positions& at, const Progress& progress);
+RawVector<Cell> delaunay_cells(const Positions& at, const Progress& progress);
 
 }  // namespace thalweg::detail

@@ -8,8 +8,9 @@
 //    round, so a round is a random sample as far as the pattern of the input is concerned.
 #include "spatial_order.hpp"
 
-#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
+
+#include <thalweg/base/raw_vector.hpp>
 
 #include <algorithm>
 #include <array>
@@ -72,22 +73,33 @@ struct Keyed {
 };
 
 // By the upper 33 of the 56 bits, then what is equal in them by the rest.
-void sort_by_key(LargeVector<Keyed>& keyed, const Progress& progress) {
+void sort_by_key(RawVector<Keyed>& keyed, const Progress& progress) {
   constexpr unsigned kDigitBits = 11, kFirstBit = 23, kDigits = 3;
   constexpr std::size_t kBuckets = 1U << kDigitBits;
-  LargeVector<Keyed> other(keyed.size());
-  std::array<std::array<std::size_t, kBuckets>, kDigits> start{};
-  const auto digit_of = [](std::uint64_t key, std::size_t digit) {
-    return key >> (kFirstBit + digit * kDigitBits) & (kBuckets - 1);
-  };
-  for (const Keyed& k : keyed) {
-    for (std::size_t digit = 0; digit < kDigits; ++digit) ++start[digit][digit_of(k.key, digit)];
-  }
+  RawVector<Keyed> other(keyed.size());
+  const std::size_t ranges = range_count(keyed.size());
+  std::vector<std::array<std::size_t, kBuckets>> start(ranges);  // each range's part of each bucket
   for (std::size_t digit = 0; digit < kDigits; ++digit) {
-    progress.check();
+    const auto bucket_of = [&](const Keyed& k) {
+      return k.key >> (kFirstBit + digit * kDigitBits) & (kBuckets - 1);
+    };
+    const auto in_ranges = [&](const auto& body) {
+      for_each_block(ranges, 1, progress, [&](std::size_t i, std::size_t) {
+        const std::size_t begin = keyed.size() * i / ranges, end = keyed.size() * (i + 1) / ranges;
+        body(std::span(keyed).subspan(begin, end - begin), start[i]);
+      });
+    };
+    in_ranges([&](std::span<const Keyed> range, auto& count) {
+      count.fill(0);
+      for (const Keyed& k : range) ++count[bucket_of(k)];
+    });
     std::size_t next = 0;
-    for (std::size_t& bucket : start[digit]) next += std::exchange(bucket, next);
-    for (const Keyed& k : keyed) other[start[digit][digit_of(k.key, digit)]++] = k;
+    for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+      for (auto& of_range : start) next += std::exchange(of_range[bucket], next);
+    }
+    in_ranges([&](std::span<const Keyed> range, auto& place) {
+      for (const Keyed& k : range) other[place[bucket_of(k)]++] = k;
+    });
     std::swap(keyed, other);
   }
   for (std::size_t begin = 0; begin < keyed.size();) {
@@ -107,7 +119,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const P
   const auto cell = [scale](double offset) {
     return static_cast<std::uint32_t>(std::min(offset * scale, double{(1U << kLevels) - 1}));
   };
-  LargeVector<Keyed> keyed(points.size());
+  RawVector<Keyed> keyed(points.size());
   for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       keyed[i] = {hilbert_key(cell(points[i].x - box.x_min), cell(points[i].y - box.y_min)),

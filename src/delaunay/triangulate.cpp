@@ -57,11 +57,14 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Ve
   Triangulated result;
   std::vector<std::uint32_t> order = hilbert_order(points, progress);
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  LargeVector<Point2> positions(points.size() + 1, Point2{kNaN, kNaN});
-  for (std::size_t v = 0; v < order.size(); ++v) positions[v] = points[order[v]];
+  RawVector<Point2> positions(points.size() + 1);
+  for_each_block(order.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) positions[v] = points[order[v]];
+  });
+  positions.back() = {kNaN, kNaN};
   const Positions at{positions};
   const std::uint32_t infinity = at.infinity();
-  LargeVector<Cell> cells = delaunay_cells(at, progress);
+  RawVector<Cell> cells = delaunay_cells(at, progress);
   progress.advance(0.9);
   if (!edges.empty() && !cells.empty()) {
     std::vector<std::uint32_t> number(points.size());

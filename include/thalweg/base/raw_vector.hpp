@@ -12,7 +12,8 @@
 namespace thalweg {
 
 /// Memory that starts at a large page of the system and asks for such pages, if it fills one: their page
-/// tables fit the processor's cache, and fewer of them have to be made. Throws: std::bad_alloc.
+/// tables fit the processor's cache, and fewer of them have to be made. Smaller memory starts at a cache
+/// line. Throws: std::bad_alloc.
 void* allocate_pages(std::size_t bytes);
 void free_pages(void* memory) noexcept;
 
