@@ -17,6 +17,7 @@
 // 4. Under ConfEdge and SeesOpp those between v and w count. With no edge that blocks all count, as in 3.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
+#include "delaunay/spatial_order.hpp"
 #include "order/blocking_cells.hpp"
 #include "order/circumdisc.hpp"
 #include "order/fan_search.hpp"
@@ -241,21 +242,22 @@ std::vector<OrderTriangle> find_order_triangles(const ConstrainedOrder& ground,
                     "; take fewer vertices, or one of the definitions from std to sees-opp");
   }
   const TriangleSearch search(ground, options, pruning);
+  // Along a curve: what one vertex loads is still in the cache for the next one.
+  const std::vector<std::uint32_t> order = hilbert_order(ground.ground().points(), progress);
   tbb::enumerable_thread_specific<Scratch> scratches;
   std::vector<std::vector<OrderTriangle>> found(vertices / kBlock + 1);
   for_each_block(vertices, kBlock, progress, {0, 1}, [&](std::size_t begin, std::size_t end) {
     Scratch& scratch = scratches.local();
     std::vector<OrderTriangle>& here = found[begin / kBlock];
-    for (std::size_t u = begin; u < end; ++u) search.at(VertexId{u}, scratch, here);
-    std::sort(here.begin(), here.end());
+    for (std::size_t i = begin; i < end; ++i) search.at(VertexId{order[i]}, scratch, here);
   });
   std::vector<OrderTriangle> all;
   for (auto& part : found) {
     all.insert(all.end(), part.begin(), part.end());
     release(part);
   }
-  if (pruning != FanPruning::NearEnds) return all;  // each found once, at its smallest id
   tbb::parallel_sort(all.begin(), all.end());
+  if (pruning != FanPruning::NearEnds) return all;  // each found once, at its smallest id
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }

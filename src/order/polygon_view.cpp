@@ -58,38 +58,4 @@ std::span<const VertexId> PolygonView::look(const Ground& ground, const Circumdi
   return visible_;
 }
 
-// Leaves the neighbours within the angle in visible_. The last edge of a fan is on the rim: it is not within.
-void PolygonView::start_within(const Ground& ground, VertexId eye, const Angle& angle) {
-  const Tin& tin = ground.tin();
-  const Point2 from = ground.point(eye);
-  visible_.clear();
-  open_.clear();
-  for (const HalfedgeId h : tin.outgoing(eye)) {
-    const Point2 right = ground.point(tin.target(h)), left = ground.point(tin.apex(h));
-    if (orientation(from, angle.right, right) > 0 && orientation(from, right, angle.left) > 0) {
-      visible_.push_back(tin.target(h));
-    }
-    if (const auto part = intersect(from, {right, left}, angle)) open_.push_back({Tin::next(h), *part});
-  }
-}
-
-std::span<const VertexId> PolygonView::look_within(const Ground& ground, const Circumdisc& disc, VertexId eye,
-                                                   const Angle& angle) {
-  start_within(ground, eye, angle);
-  follow(ground, disc, ground.point(eye));
-  return visible_;
-}
-
-bool PolygonView::sees_any(const Ground& ground, const Circumdisc& disc, VertexId eye, const Angle& angle,
-                           VertexId one) {
-  const auto wanted = [&](VertexId v) { return v == one || disc.holds(ground.point(v)); };
-  start_within(ground, eye, angle);
-  if (std::any_of(visible_.begin(), visible_.end(), wanted)) return true;
-  while (!open_.empty()) {
-    const auto seen = advance(ground, disc, ground.point(eye));
-    if (seen && wanted(*seen)) return true;
-  }
-  return false;
-}
-
 }  // namespace thalweg::detail

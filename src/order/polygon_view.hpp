@@ -17,13 +17,6 @@ class PolygonView {
   /// The vertices that the eye sees along segments in the disc, and some more that it sees; in no promised
   /// order. Pre: ground.simple_polygons(). Complexity: the faces that meet the disc: each is entered once.
   std::span<const VertexId> look(const Ground& ground, const Circumdisc& disc, VertexId eye);
-  /// Of these, those that are strictly within the angle, of less than half a turn. Complexity: the faces that
-  /// the eye sees within the angle and that meet the disc.
-  std::span<const VertexId> look_within(const Ground& ground, const Circumdisc& disc, VertexId eye,
-                                        const Angle& angle);
-  /// Whether the eye sees `one`, or a vertex inside the disc, strictly within the angle. Pre: as for
-  /// look_within. Complexity: the faces on the way to the first such vertex, or as look_within.
-  bool sees_any(const Ground& ground, const Circumdisc& disc, VertexId eye, const Angle& angle, VertexId one);
 
  private:
   /// A cone that is still open: `edge` from its right to its left end, entered from the side of the eye.
@@ -32,7 +25,6 @@ class PolygonView {
     Angle angle;
   };
 
-  void start_within(const Ground& ground, VertexId eye, const Angle& angle);
   /// Takes one cone through one face; the vertex that it finds in sight there.
   std::optional<VertexId> advance(const Ground& ground, const Circumdisc& disc, Point2 from);
   void follow(const Ground& ground, const Circumdisc& disc, Point2 from);

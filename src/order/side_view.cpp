@@ -20,7 +20,9 @@
 // 4. The faces that uv crosses: their corners right of uv are in light, along the edges that cross uv. Of two
 //    that follow each other, each bounds the light through the edge between them; the chains are those that a
 //    shortest path from u to one, and from v to the other, loses on its way to the next: a Graham scan.
-// 5. None of this needs the dual to be a tree: a window is a way from face to face, and chains are those of
+// 5. Windows wait on a stack, the left one of two on top: those in which the walk ends come from left to
+//    right, and the vertex that parts two neighbours is the last one found that parts none before.
+// 6. None of this needs the dual to be a tree: a window is a way from face to face, and chains are those of
 //    the paths along it. Where edges that block stand alone in the ground, light goes past both of their
 //    ends, and meets again. A vertex that blocks nothing cuts light like others: what lies straight behind it
 //    is strictly between the rays of a window at its other side.
@@ -170,17 +172,40 @@ std::span<const VertexId> SideView::look(const Ground& ground, const Circumdisc&
   ground_ = &ground;
   links_.clear();
   open_.clear();
+  ends_.clear();
   open_windows(u, v);
+  const auto leaves_at = [&](HalfedgeId edge) {
+    if (ground.blocks(edge) || tin.on_rim(edge)) return true;
+    const Point2 right = ground.point(tin.origin(edge)), left = ground.point(tin.target(edge));
+    return disc.side(right) < 0 && disc.side(left) < 0 && !disc.passes(right, left);
+  };
   for (std::size_t faces = 0; !open_.empty() && faces < most_faces;) {
     const Window window = open_.back();
     open_.pop_back();
-    if (ground.blocks(window.edge) || tin.on_rim(window.edge)) continue;
-    const Point2 right = ground.point(tin.origin(window.edge)), left = ground.point(tin.target(window.edge));
-    if (disc.side(right) < 0 && disc.side(left) < 0 && !disc.passes(right, left)) continue;
+    if (leaves_at(window.edge)) {
+      ends_.push_back({window.right, window.left, static_cast<std::uint32_t>(visible_.size())});
+      continue;
+    }
     enter(window);
     ++faces;
   }
   return visible_;
+}
+
+std::vector<SideView::Beam> SideView::beams() const {
+  std::vector<Beam> beams;
+  beams.reserve(ends_.size());
+  std::vector<std::uint32_t> parting;
+  std::uint32_t found = 0;
+  for (const auto& [right, left, after] : ends_) {
+    while (found < after) parting.push_back(found++);
+    Beam& beam = beams.emplace_back(Beam{links_[left.far].vertex, links_[right.near].vertex,
+                                         links_[right.far].vertex, links_[left.near].vertex});
+    if (parting.empty()) break;
+    beam.at_right = parting.back();
+    parting.pop_back();
+  }
+  return beams;
 }
 
 }  // namespace thalweg::detail

@@ -28,6 +28,15 @@ class SideView {
   };
   /// One for each vertex that the last look gave.
   [[nodiscard]] std::span<const Bounds> bounds() const { return bounds_; }
+  /// A bundle of the light, between two neighbouring ones of what it falls on, where the last look left it:
+  /// at an edge that blocks, or one that does not meet the disc. Its rays turn from the one through the first
+  /// two vertices counter-clockwise to the one through the other two, both of which only touch it.
+  struct Beam {
+    VertexId right_from, right_to, left_from, left_to;
+    std::uint32_t at_right = 0;  ///< which of the vertices found parts it from the next; the last has none
+  };
+  /// Those of the last look, from left to right as it goes out. Pre: it was not stopped. Complexity: linear.
+  [[nodiscard]] std::vector<Beam> beams() const;
   /// Whether the last walk was stopped: then what it found is not all.
   [[nodiscard]] bool gave_up() const { return !open_.empty(); }
 
@@ -64,12 +73,18 @@ class SideView {
   };
   void wrap(std::span<const VertexId> corners, Turn bend, Wrapped& wrapped);
   void enter(const Window& window);
+  /// Where a window was left, and how many vertices had been found.
+  struct End {
+    Chain right, left;
+    std::uint32_t after;
+  };
 
   const Ground* ground_ = nullptr;
   std::vector<Link> links_;
   std::vector<Window> open_;
   std::vector<VertexId> visible_, corners_;
   std::vector<Bounds> bounds_;
+  std::vector<End> ends_;
   std::vector<HalfedgeId> edges_;
   Wrapped right_, left_;
 };

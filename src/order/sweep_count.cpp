@@ -21,11 +21,7 @@
 // 5. Over simple polygons walks along the dual tree give each view (polygon_view.cpp) and all that sees a
 //    side, and between which lines (side_view.cpp; section 5 and Table 2). A triangle uvp whose sides run on
 //    the ground then holds no vertex (Lemma 2).
-// 6. ConfEdge there: between these lines nothing is in the way up to the triangle; what stands there is w or
-//    lies beyond another side. Of two vertices that see each other through the triangle one at least lies
-//    beyond one of any two sides. Where few see two of the sides, as in most discs that hold much, which are
-//    those of flat triangles, only these few look. Else each looks up to the first vertex in sight: n^2 where
-//    such looks run far along narrow ways. (The paper shoots rays in n log n.)
+// 6. ConfEdge there: of the vertices that see a side, those that see somebody through it (through_sweep.cpp).
 #include "order/sweep_count.hpp"
 
 #include <algorithm>
@@ -115,6 +111,11 @@ VertexId first_blocking(const Ground& ground, VertexId u, VertexId v, int turn) 
   return first;
 }
 
+/// Where all that is inside lies beyond one side, a vertex conflicts with the opposite corner only.
+OrderDefinition same_if_alone(OrderDefinition definition) {
+  return definition == OrderDefinition::ConfEdge ? OrderDefinition::SeesOpp : definition;
+}
+
 bool right_of(const Ground& ground, VertexId u, VertexId v, VertexId p) {
   return orientation(ground.point(u), ground.point(v), ground.point(p)) < 0;
 }
@@ -142,9 +143,14 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
     all_edges_ = distinct(ground.tin(), all_.barriers());
   }
   for (std::size_t side = 0; side < 3; ++side) {
-    if (!beyond_[side].empty()) at_side(ground, definition, side);
+    if (beyond_[side].empty()) continue;
+    const bool alone = beyond_[side].size() == inside_.size();
+    if (definition == OrderDefinition::ConfEdge && ground.simple_polygons() && !alone) {
+      add_conflicts(ground, side);
+    } else {
+      at_side(ground, alone ? same_if_alone(definition) : definition, side);
+    }
   }
-  if (definition == OrderDefinition::ConfEdge && ground.simple_polygons()) count_conflicts(ground);
   return counted_;
 }
 
@@ -163,7 +169,7 @@ void SweepCount::view(const Ground& ground, VertexId eye, ViewSweep::HalfPlane h
 void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::size_t side) {
   const VertexId u = corners_[side], v = corners_[(side + 1) % 3], w = corners_[(side + 2) % 3];
   const bool by_light = definition == OrderDefinition::SeesTriang || definition == OrderDefinition::SeesVtx ||
-                        (definition == OrderDefinition::ConfEdge && !ground.simple_polygons());
+                        definition == OrderDefinition::ConfEdge;
   if (by_light && ground.simple_polygons()) {
     assign_sorted(in_light_, side_view_.look(ground, disc_, u, v));
     in_light_ = common(in_light_, beyond_[side]);
@@ -197,8 +203,6 @@ void SweepCount::at_side(const Ground& ground, OrderDefinition definition, std::
 // Of the vertices that do not see w those that count all the same.
 void SweepCount::add_light(const Ground& ground, OrderDefinition definition, std::size_t side) {
   const VertexId u = corners_[side], v = corners_[(side + 1) % 3];
-  const bool alone = beyond_[side].size() == inside_.size();
-  if (definition == OrderDefinition::ConfEdge && alone) return;
   const auto listed = [](const std::vector<VertexId>& list, VertexId p) {
     return std::binary_search(list.begin(), list.end(), p);
   };
@@ -236,52 +240,17 @@ bool SweepCount::conflicts(const Ground& ground, VertexId p, std::size_t side) {
   });
 }
 
-// Over simple polygons, besides what sees its opposite corner.
-void SweepCount::count_conflicts(const Ground& ground) {
-  for (std::size_t side = 0; side < 3; ++side) {
-    lit_[side].clear();
-    if (beyond_[side].empty()) continue;
-    const auto seen = side_view_.look(ground, disc_, corners_[side], corners_[(side + 1) % 3]);
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (!std::binary_search(beyond_[side].begin(), beyond_[side].end(), seen[i])) continue;
-      lit_[side].push_back({seen[i], side_view_.bounds()[i]});
-    }
+// Over simple polygons.
+void SweepCount::add_conflicts(const Ground& ground, std::size_t side) {
+  const Triangle uvw{corners_[side], corners_[(side + 1) % 3], corners_[(side + 2) % 3]};
+  lit_.clear();
+  const auto seen = side_view_.look(ground, disc_, uvw[0], uvw[1]);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!std::binary_search(beyond_[side].begin(), beyond_[side].end(), seen[i])) continue;
+    lit_.push_back({seen[i], side_view_.bounds()[i]});
   }
-  std::array<std::size_t, 3> sides{0, 1, 2};
-  std::sort(sides.begin(), sides.end(),
-            [&](std::size_t a, std::size_t b) { return lit_[a].size() < lit_[b].size(); });
-  if (lit_[sides[0]].size() + lit_[sides[1]].size() <= kFewLit) {
-    add_conflicts_of_few(ground, sides[0]);
-    add_conflicts_of_few(ground, sides[1]);
-  } else {
-    for (const std::size_t side : sides) add_conflicts_one_by_one(ground, side);
-  }
-  std::sort(counted_.begin(), counted_.end());
-  counted_.erase(std::unique(counted_.begin(), counted_.end()), counted_.end());
-}
-
-// The vertices that see the side, and what they see through it.
-void SweepCount::add_conflicts_of_few(const Ground& ground, std::size_t side) {
-  const auto& across = beyond_[(side + 1) % 3];
-  const auto& also_across = beyond_[(side + 2) % 3];
-  for (const auto& [p, bounds] : lit_[side]) {
-    const Angle angle{ground.point(bounds.right), ground.point(bounds.left)};
-    const std::size_t before = counted_.size();
-    for (const VertexId r : polygon_view_.look_within(ground, disc_, p, angle)) {
-      if (std::binary_search(across.begin(), across.end(), r) ||
-          std::binary_search(also_across.begin(), also_across.end(), r)) {
-        counted_.push_back(r);
-      }
-    }
-    if (counted_.size() > before) counted_.push_back(p);
-  }
-}
-
-void SweepCount::add_conflicts_one_by_one(const Ground& ground, std::size_t side) {
-  for (const auto& [p, bounds] : lit_[side]) {
-    const Angle angle{ground.point(bounds.right), ground.point(bounds.left)};
-    if (polygon_view_.sees_any(ground, disc_, p, angle, corners_[(side + 2) % 3])) counted_.push_back(p);
-  }
+  const auto seeing = through_sweep_.look(ground, disc_, uvw, lit_);
+  counted_.insert(counted_.end(), seeing.begin(), seeing.end());
 }
 
 void SweepCount::keep_empty(const Ground& ground, VertexId u, VertexId v,

@@ -7,6 +7,7 @@
 #include "order/polygon_view.hpp"
 #include "order/side_view.hpp"
 #include "order/sights.hpp"
+#include "order/through_sweep.hpp"
 #include "order/view_sweep.hpp"
 
 #include <array>
@@ -24,22 +25,17 @@ class SweepCount {
   /// nor Pathcon. Complexity, with n the vertices and edges in the disc: n log n for SeesOpp, Sees3vtx and
   /// EmptyQuad; for SeesTriang, SeesVtx and ConfEdge also n log n for each vertex that does not see its
   /// opposite corner, at most. Over simple polygons n, with n the faces that meet the disc, and n log n at
-  /// most to cut what a side sees; ConfEdge also, if more than kFewLit vertices see the two sides that fewest
-  /// see, the faces that light from each vertex crosses, through its side, up to the first vertex on which it
-  /// falls.
+  /// most to cut what a side sees, and under ConfEdge.
   std::span<const VertexId> count(const Ground& ground, const Triangle& corners, TriangleId start,
                                   OrderDefinition definition, const Flood& reached);
 
  private:
-  static constexpr std::size_t kFewLit = 64;
   void view(const Ground& ground, VertexId eye, ViewSweep::HalfPlane half, std::span<const VertexId> points,
             std::span<const HalfedgeId> edges, std::vector<VertexId>& seen);
   void at_side(const Ground& ground, OrderDefinition definition, std::size_t side);
   void add_light(const Ground& ground, OrderDefinition definition, std::size_t side);
   [[nodiscard]] bool conflicts(const Ground& ground, VertexId p, std::size_t side);
-  void count_conflicts(const Ground& ground);
-  void add_conflicts_of_few(const Ground& ground, std::size_t side);
-  void add_conflicts_one_by_one(const Ground& ground, std::size_t side);
+  void add_conflicts(const Ground& ground, std::size_t side);
   void keep_empty(const Ground& ground, VertexId u, VertexId v, std::vector<VertexId>& candidates) const;
 
   Triangle corners_{};
@@ -49,13 +45,8 @@ class SweepCount {
   std::array<std::vector<VertexId>, 3> beyond_;  ///< vertices reached beyond side i
   std::vector<VertexId> all_beyond_;             ///< all vertices inside beyond the side at hand
   std::vector<VertexId> seen_, from_start_, from_end_, from_corner_;
-  std::vector<VertexId> in_light_;  ///< over simple polygons: what sees the side at hand
-  /// A vertex that sees a side, and between what.
-  struct Lit {
-    VertexId vertex;
-    SideView::Bounds bounds;
-  };
-  std::array<std::vector<Lit>, 3> lit_;  ///< under ConfEdge over simple polygons, beyond each side
+  std::vector<VertexId> in_light_;      ///< over simple polygons: what sees the side at hand
+  std::vector<ThroughSweep::Eye> lit_;  ///< what sees the side at hand, under ConfEdge over simple polygons
   std::vector<VertexId> counted_;
   std::span<const VertexId> inside_;
   ViewSweep sweep_;
@@ -63,6 +54,7 @@ class SweepCount {
   PolygonView polygon_view_;
   SideView side_view_;
   SideSight side_sight_;
+  ThroughSweep through_sweep_;
 };
 
 }  // namespace thalweg::detail

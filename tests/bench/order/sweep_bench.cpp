@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,8 +83,32 @@ Tin filled(std::size_t m) {
   return scene.triangulated();
 }
 
-// A simple polygon of the same shape: the flat triangle, walls of m / 4 teeth, and a ceiling of m teeth.
-Tin hall(std::size_t m) {
+/// A simple polygon by its corners, counter-clockwise, and one of its triangles.
+struct Polygon {
+  Tin tin;
+  Triangle triangle;
+};
+
+Polygon polygon(FlatTriangle scene, const Triangle& triangle) {
+  const std::size_t corners = scene.points.size();
+  for (std::size_t i = 0; i < corners; ++i) {
+    scene.edges.push_back({VertexId{i}, VertexId{(i + 1) % corners}, EdgeKind::Boundary});
+  }
+  const Tin tin = scene.triangulated();
+  std::vector<bool> keep;
+  for (const Triangle& t : tin.triangles()) keep.push_back(t[0] < t[1] && t[1] < t[2]);
+  return {keep_triangles(tin, keep), triangle};
+}
+
+// The polygon's first two corners and its last one make the flat triangle.
+Polygon polygon_on_flat_triangle(FlatTriangle scene) {
+  scene.add(-1, 0);
+  const VertexId last{scene.points.size() - 1};
+  return polygon(std::move(scene), {VertexId{std::size_t{0}}, VertexId{std::size_t{1}}, last});
+}
+
+// A simple polygon of the ladder's shape: the flat triangle, walls of m / 4 teeth, and a ceiling of m teeth.
+Polygon hall(std::size_t m) {
   FlatTriangle scene;
   scene.points = {{0, -0.001}, {1, 0}};
   const auto wall = [&](double side) {
@@ -100,20 +125,51 @@ Tin hall(std::size_t m) {
     scene.add(x, i % 2 == 0 ? scene.real(904, 906) : scene.real(940, 945));
   }
   wall(-1);
-  scene.add(-1, 0);
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    scene.edges.push_back({VertexId{i}, VertexId{(i + 1) % scene.points.size()}, EdgeKind::Boundary});
-  }
-  const Tin tin = scene.triangulated();
-  std::vector<bool> keep;
-  for (const Triangle& t : tin.triangles()) keep.push_back(t[0] < t[1] && t[1] < t[2]);
-  return keep_triangles(tin, keep);
+  return polygon_on_flat_triangle(std::move(scene));
 }
 
-// A simple polygon round a triangle of three corners on the circle of radius 2.2: teeth, all but those near
-// the corners inside the circle, and pockets between them that look across to the teeth beyond the other
-// sides.
-Tin arena(std::size_t m) {
+// From the flat triangle a corridor of eight turns towards the centre of the disc, m corners long.
+Polygon spiral(std::size_t m) {
+  constexpr double kTurn = 2 * 3.14159265358979323846;
+  FlatTriangle scene;
+  scene.points = {{0, -0.001}, {1, 0}};
+  const auto wall = [&](double radius, bool outward) {
+    for (std::size_t i = 1; i < m / 2; ++i) {
+      const double part = static_cast<double>(outward ? m / 2 - i : i) / static_cast<double>(m / 2);
+      const double turn = kTurn * (8 * part - 0.25);
+      const double at = radius - 440 * part + scene.real(-1, 1);
+      scene.add(at * std::cos(turn), 500 + at * std::sin(turn));
+    }
+  };
+  wall(498, false);
+  wall(470, true);
+  return polygon_on_flat_triangle(std::move(scene));
+}
+
+// A large triangle. Beyond one side m corners on a wall look out through a slit, across the triangle and
+// along a tunnel beyond another side, whose 2 m corners they do not see.
+Polygon tunnel(std::size_t m) {
+  constexpr double kLevel = -0.4;
+  const double root = std::sqrt(0.75);
+  const auto part = [m](std::size_t i) { return (static_cast<double>(i) + 0.5) / static_cast<double>(m); };
+  FlatTriangle scene;
+  scene.points.clear();
+  scene.add(0, -1);
+  scene.add(0.36, kLevel - 0.0005);
+  for (std::size_t i = 0; i < m; ++i) {
+    scene.add(0.6 + scene.real(0, 0.005) / static_cast<double>(m), kLevel + 0.02 * part(i) - 0.01);
+  }
+  scene.add(0.36, kLevel + 0.0005);
+  const VertexId right = scene.add(root, 0.5), left = scene.add(-root, 0.5);
+  const auto bulge = [&](std::size_t i) { return 0.1 + 0.02 * part(i) * (1 - part(i)); };
+  for (std::size_t i = 0; i < m; ++i) scene.add(-0.45 - 0.55 * part(i), kLevel + bulge(i));
+  for (std::size_t i = m; i-- > 0;) scene.add(-0.45 - 0.55 * part(i), kLevel - bulge(i));
+  return polygon(std::move(scene), {VertexId{std::size_t{0}}, right, left});
+}
+
+// Round a triangle of three corners on the circle of radius 2.2 teeth, all but those near the corners inside
+// the circle, and pockets between them that look across to the teeth beyond the other sides.
+Polygon arena(std::size_t m) {
   constexpr double kTurn = 2 * 3.14159265358979323846;
   FlatTriangle scene;
   scene.points.clear();
@@ -124,12 +180,8 @@ Tin arena(std::size_t m) {
     if (!inside) radius = i % m == 0 ? 2.2 : 2.3;
     const double turn = kTurn / 3 * (static_cast<double>(i / m) + part);
     scene.add(radius * std::cos(turn), radius * std::sin(turn));
-    scene.connect(VertexId{i}, VertexId{(i + 1) % (3 * m)});
   }
-  const Tin tin = scene.triangulated();
-  std::vector<bool> keep;
-  for (const Triangle& t : tin.triangles()) keep.push_back(t[0] < t[1] && t[1] < t[2]);
-  return keep_triangles(tin, keep);
+  return polygon(std::move(scene), {VertexId{std::size_t{0}}, VertexId{m}, VertexId{2 * m}});
 }
 
 void count_sizes(benchmark::State& state, std::size_t counted) {
@@ -146,28 +198,17 @@ void order_of_one(benchmark::State& state, OrderDefinition definition) {
   count_sizes(state, counted);
 }
 
-void order_in_polygon(benchmark::State& state, OrderDefinition definition) {
-  const Tin tin = hall(static_cast<std::size_t>(state.range(0)));
+void order_in_polygon(benchmark::State& state, Polygon (*make)(std::size_t)) {
+  const auto [tin, triangle] = make(static_cast<std::size_t>(state.range(0)));
+  const OrderDefinition definition = kOrderDefinitions.at(static_cast<std::size_t>(state.range(1)));
   const ConstrainedOrder order(tin, GroundMode::Polygon);
   OrderWorkspace workspace;
-  const Triangle flat{VertexId{std::size_t{0}}, VertexId{std::size_t{1}}, VertexId{tin.vertex_count() - 1}};
+  if (!order.is_valid(triangle, workspace)) return state.SkipWithError("no valid triangle");
   std::size_t counted = 0;
-  for (auto _ : state) counted = order.order(flat, definition, workspace);
+  for (auto _ : state) counted = order.order(triangle, definition, workspace);
+  state.SetLabel(std::string(definition_name(definition)));
+  state.counters["corners"] = static_cast<double>(tin.vertex_count());
   count_sizes(state, counted);
-}
-
-void conflicts_in_polygon(benchmark::State& state) {
-  const auto m = static_cast<std::size_t>(state.range(0));
-  const Tin tin = arena(m);
-  const ConstrainedOrder order(tin, GroundMode::Polygon);
-  OrderWorkspace workspace;
-  const Triangle round{VertexId{std::size_t{0}}, VertexId{m}, VertexId{2 * m}};
-  if (!order.is_valid(round, workspace)) return state.SkipWithError("no valid triangle");
-  std::size_t counted = 0;
-  for (auto _ : state) counted = order.order(round, OrderDefinition::ConfEdge, workspace);
-  count_sizes(state, counted);
-  state.counters["see the opposite corner"] =
-      static_cast<double>(order.order(round, OrderDefinition::SeesOpp, workspace));
 }
 
 // By a walk from each vertex to the opposite corner.
@@ -246,46 +287,14 @@ BENCHMARK_CAPTURE(order_of_one, conf_edge, OrderDefinition::ConfEdge)
     ->Range(100, 100000)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, pathcon, OrderDefinition::Pathcon)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, sees_triang, OrderDefinition::SeesTriang)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, sees_vtx, OrderDefinition::SeesVtx)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, conf_edge, OrderDefinition::ConfEdge)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, sees_opp, OrderDefinition::SeesOpp)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, sees_3vtx, OrderDefinition::Sees3vtx)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK_CAPTURE(order_in_polygon, empty_quad, OrderDefinition::EmptyQuad)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
-BENCHMARK(conflicts_in_polygon)
-    ->RangeMultiplier(10)
-    ->Range(300, 30000)
-    ->Unit(benchmark::kMillisecond)
-    ->Complexity();
+void sizes_and_definitions(benchmark::internal::Benchmark* bench) {
+  bench->ArgsProduct({{1000, 10000, 100000}, benchmark::CreateDenseRange(1, 7, 1)})
+      ->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(order_in_polygon, hall, hall)->Apply(sizes_and_definitions);
+BENCHMARK_CAPTURE(order_in_polygon, spiral, spiral)->Apply(sizes_and_definitions);
+BENCHMARK_CAPTURE(order_in_polygon, tunnel, tunnel)->Apply(sizes_and_definitions);
+BENCHMARK_CAPTURE(order_in_polygon, arena, arena)->Apply(sizes_and_definitions);
 BENCHMARK_CAPTURE(pairs, ladder, ladder)
     ->RangeMultiplier(10)
     ->Range(100, 10000)

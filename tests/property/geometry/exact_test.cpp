@@ -1,6 +1,7 @@
 // The laws of predicates.hpp on random input, against rational arithmetic on the textbook determinants.
 #include "support/random.hpp"
 
+#include <thalweg/geometry/direction.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -156,6 +157,17 @@ TEST(ExactPredicates, Orientation) {
     EXPECT_EQ(orientation(p[0], p[1], p[2]), expected);
     EXPECT_EQ(orientation(p[1], p[2], p[0]), expected);
     EXPECT_EQ(orientation(p[1], p[0], p[2]), -expected);
+  });
+}
+
+TEST(ExactPredicates, Turn) {
+  on_scenes(4, 1000, [](const std::vector<Point2>& p) {
+    const ExactPoint a = exact(p[0]), b = exact(p[1]), c = exact(p[2]), d = exact(p[3]);
+    const int expected = cpp_int((b.x - a.x) * (d.y - c.y) - (b.y - a.y) * (d.x - c.x)).sign();
+    EXPECT_EQ(turn({p[0], p[1]}, {p[2], p[3]}), expected);
+    EXPECT_EQ(turn({p[2], p[3]}, {p[0], p[1]}), -expected);
+    EXPECT_EQ(turn({p[1], p[0]}, {p[2], p[3]}), -expected);
+    EXPECT_EQ(turn({p[0], p[1]}, {p[0], p[2]}), exact_orientation(p[0], p[1], p[2]));
   });
 }
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
@@ -279,6 +280,81 @@ TEST(Sweeps, CountConflictsAcrossSimplePolygons) {
     beside += found.size() - counter.counted(corners, OrderDefinition::SeesOpp).size();
   }
   EXPECT_GT(beside, 0U);
+}
+
+// A simple polygon that winds through the points, with no vertex inside: triangles are added as long as each
+// brings a new corner, the latest first mostly.
+Tin winding_polygon(test::Random& random, std::size_t corners, bool lattice) {
+  const Tin all = scattered(random, 4 * corners, lattice, 0);
+  std::vector<bool> keep(all.triangle_count(), false), used(all.vertex_count(), false);
+  std::vector<HalfedgeId> open;
+  const auto add = [&](TriangleId t) {
+    keep[t.index()] = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const HalfedgeId h{3 * t.index() + i};
+      used[all.origin(h).index()] = true;
+      if (!all.on_rim(h)) open.push_back(all.twin(h));
+    }
+  };
+  add(TriangleId{random.integer<std::size_t>(0, all.triangle_count() - 1)});
+  for (std::size_t left = corners - 3; left > 0 && !open.empty();) {
+    const std::size_t last = open.size() - 1;
+    const std::size_t i = random.integer(0, 3) == 0 ? random.integer<std::size_t>(0, last)
+                                                    : last - std::min<std::size_t>(last, 1);
+    const HalfedgeId entry = open[i];
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+    if (used[all.apex(entry).index()]) continue;
+    add(Tin::triangle_of(entry));
+    --left;
+  }
+  return keep_triangles(all, keep);
+}
+
+// Corners of triangles that lie near each other.
+Triangle some_corners(test::Random& random, const Tin& tin) {
+  Triangle corners;
+  HalfedgeId h{random.integer<std::size_t>(0, tin.halfedge_count() - 1)};
+  for (VertexId& corner : corners) {
+    for (int steps = random.integer(0, 4); steps > 0; --steps) {
+      if (!tin.on_rim(h)) h = tin.twin(h);
+      h = random.integer(0, 1) == 0 ? Tin::next(h) : Tin::previous(h);
+    }
+    corner = tin.apex(h);
+  }
+  return corners;
+}
+
+TEST(Sweeps, CountConflictsInWindingPolygons) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  std::size_t triangles = 0, beside = 0, none = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Tin tin = winding_polygon(random, 20 + 4 * static_cast<std::size_t>(i), i % 2 == 0);
+    const Ground ground(tin, GroundMode::Polygon);
+    ASSERT_TRUE(ground.simple_polygons());
+    const ConstrainedOrder order(tin, GroundMode::Polygon);
+    OrderWorkspace workspace;
+    Counter counter{ground, {}, {}, {}, 0};
+    for (int tries = 0; tries < 4000; ++tries) {
+      Triangle corners = some_corners(random, tin);
+      if (corners[0] == corners[1] || corners[1] == corners[2] || corners[0] == corners[2]) continue;
+      if (!order.is_valid(corners, workspace)) continue;
+      corners = counter_clockwise(tin, corners);
+      const std::vector<VertexId> found = counter.counted(corners, OrderDefinition::ConfEdge);
+      const std::vector<VertexId> inside = sorted(counter.flood.inside());
+      std::vector<VertexId> expected;
+      for (const VertexId p : inside) {
+        if (counts(ground, corners, p, OrderDefinition::ConfEdge, inside)) expected.push_back(p);
+      }
+      ASSERT_EQ(found, expected);
+      ++triangles;
+      none += inside.size() - found.size();
+      beside += found.size() - counter.counted(corners, OrderDefinition::SeesOpp).size();
+    }
+  }
+  EXPECT_GT(triangles, 1000U);
+  EXPECT_GT(beside, 100U);
+  EXPECT_GT(none, 1000U);
 }
 
 TEST(Sweeps, FollowLemma2InSimplePolygons) {
