@@ -6,6 +6,7 @@
 // 2. The nearest vertices are found through the faces of the ground, from those that uv passes on, over every
 //    edge that meets the part left of uv of the disc through u, v and the farthest vertex of the list. That
 //    part is convex, so all faces that meet it hang together over such edges; the list only gets nearer.
+//    First no farther than the circle through the nearest vertex of the other side: most edges end there.
 // 3. Let uv cross edge ab of the ground, a on the left. If uv is of use at order k, then so is the triangle
 // of
 //    u, v and its nearest vertex on the left (Gudmundsson, Hammar, van Kreveld, Higher order Delaunay
@@ -36,37 +37,37 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Pencil::Position Pencil::position(VertexId x) const {
+Pencil::Position Pencil::position(const Side& side, VertexId x) const {
   const Point2 p = ground_->point(x);
-  const double dx = p.x - from_.x, dy = p.y - from_.y, ex = p.x - to_.x, ey = p.y - to_.y;
-  const double vx = to_.x - from_.x, vy = to_.y - from_.y;
+  const double dx = p.x - side.from.x, dy = p.y - side.from.y, ex = p.x - side.to.x, ey = p.y - side.to.y;
+  const double vx = side.to.x - side.from.x, vy = side.to.y - side.from.y;
   const double one = dx * ex, other = dy * ey, left = vx * dy, right = vy * dx;
   return {one + other, left - right, std::abs(one) + std::abs(other) + std::abs(left) + std::abs(right)};
 }
 
-bool Pencil::nearer(const Beside& one, const Beside& other) const {
+bool Pencil::nearer(const Side& side, const Beside& one, const Beside& other) const {
   if (one.cotangent + one.error < other.cotangent - other.error) return true;
   if (one.cotangent - one.error > other.cotangent + other.error) return false;
-  return in_circle_perturbed(from_, to_, ground_->point(other.vertex), ground_->point(one.vertex));
+  return in_circle_perturbed(side.from, side.to, ground_->point(other.vertex), ground_->point(one.vertex));
 }
 
 // None if it is not strictly on the left.
-std::optional<Pencil::Beside> Pencil::beside(VertexId x, const Position& at) const {
+std::optional<Pencil::Beside> Pencil::beside(const Side& side, VertexId x, const Position& at) const {
   const double error = kRounding * at.size + kNoUnderflow;
   if (at.across > 2 * error) {
     const double cotangent = at.along / at.across;
     return Beside{x, cotangent, 2 * error * (1 + std::abs(cotangent)) / at.across};
   }
   if (at.across < -2 * error || x == u_ || x == v_) return std::nullopt;
-  if (orientation(from_, to_, ground_->point(x)) <= 0) return std::nullopt;
+  if (orientation(side.from, side.to, ground_->point(x)) <= 0) return std::nullopt;
   return Beside{x, 0, kUnbounded};
 }
 
-// Whether an edge of the ground, of that length squared, may meet what is left of uv of the disc through u, v
-// and a place that sees uv at an angle of that cotangent.
-bool Pencil::reaches(const Border& border, double square, double cotangent) {
+// Whether the border may meet what is left of uv of the disc through u, v and a place that sees uv at an
+// angle of that cotangent.
+bool Pencil::reaches(const Border& border, double cotangent) {
   const Position &p = border.from, &q = border.to;
-  const double slack = kWider * (p.size + q.size);
+  const double square = border.square, slack = kWider * (p.size + q.size);
   if (p.across < -slack && q.across < -slack) return false;
   if (!(cotangent < kUnbounded)) return true;
   // The power of the point p + t (q - p) with respect to the circle is a parabola in t.
@@ -78,70 +79,84 @@ bool Pencil::reaches(const Border& border, double square, double cotangent) {
   return of_p - slope * slope / (4 * square) <= error;
 }
 
-// Meets vertices on the left until `meet` says no; `limit` is the cotangent at which the disc ends.
-template <class Meet, class Limit>
-void Pencil::search(const Start& start, const Meet& meet, const Limit& limit) {
-  met_.clear();
-  pending_.clear();
-  for (const TriangleId t : passed_) met_.insert(t.value());
-  for (const VertexId x : start.vertices) {
-    const auto found = beside(x, position(x));
-    if (found && !meet(*found)) return;
-  }
-  for (const HalfedgeId h : start.borders) {
-    pending_.push_back({h, position(ground_->origin(h)), position(ground_->target(h))});
-  }
-  for (std::size_t next = 0; next < pending_.size(); ++next) {
-    const Border border = pending_[next];
-    const HalfedgeId entry = ground_->twin(border.edge);
-    if (!entry.valid()) continue;
-    const Point2 p = ground_->point(ground_->origin(entry)), q = ground_->point(ground_->target(entry));
-    const double square = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
-    if (!reaches(border, square, limit()) || !met_.insert(Tin::triangle_of(entry).value())) continue;
-    const VertexId apex = ground_->apex(entry);
-    const Position at = position(apex);
-    const auto found = beside(apex, at);
-    if (found && !meet(*found)) return;
-    pending_.push_back({Tin::next(entry), border.from, at});
-    pending_.push_back({Tin::previous(entry), at, border.to});
-  }
+Pencil::Border Pencil::border(HalfedgeId edge, const Position& from, const Position& to) const {
+  const Point2 p = ground_->point(ground_->origin(edge)), q = ground_->point(ground_->target(edge));
+  return {edge, from, to, (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y)};
 }
 
-void Pencil::insert(const Beside& fresh, std::vector<Beside>& nearest) const {
+// Keeps the nearest.
+void Pencil::insert(const Beside& fresh, Side& side) const {
+  std::vector<Beside>& nearest = side.nearest;
   const bool full = nearest.size() > most_;
-  if (full && !nearer(fresh, nearest.back())) return;
+  if (full && !nearer(side, fresh, nearest.back())) return;
   for (const Beside& known : nearest) {
     if (known.vertex == fresh.vertex) return;
   }
   if (full) nearest.pop_back();
   auto place = nearest.end();
-  while (place != nearest.begin() && nearer(fresh, *std::prev(place))) --place;
+  while (place != nearest.begin() && nearer(side, fresh, *std::prev(place))) --place;
   nearest.insert(place, fresh);
 }
 
-// Whether at most `most_` of them are inside the circle through u, v and one on the right; if not, the list
-// is not finished.
-bool Pencil::list(const Start& start, const Beside& corner, std::vector<Beside>& nearest) {
-  nearest.clear();
-  bool few = true;
-  search(
-      start,
-      [&](const Beside& found) {
-        insert(found, nearest);
-        few = nearest.size() <= most_ || !inside(to_, from_, corner, nearest.back());
-        return few;
-      },
-      [&] { return nearest.size() > most_ ? nearest.back().cotangent + nearest.back().error : kUnbounded; });
-  return few;
+// The vertices of the faces that uv passes.
+void Pencil::begin(Side& side) const {
+  side.nearest.clear();
+  for (const VertexId x : side.vertices) {
+    if (const auto found = beside(side, x, position(side, x))) insert(*found, side);
+  }
 }
 
-Pencil::Beside Pencil::nearest(const Start& start) const {
-  std::optional<Beside> best;
-  for (const VertexId x : start.vertices) {
-    const auto found = beside(x, position(x));
-    if (found && (!best || nearer(*found, *best))) best = found;
+// Goes on over the pending borders that are within the limit; the others are left for later.
+template <class Limit, class Enough>
+bool Pencil::spread(Side& side, const Limit& limit, const Enough& enough) {
+  for (std::size_t next = 0; next < pending_.size(); ++next) {
+    const Border over = pending_[next];
+    if (!reaches(over, limit())) {
+      side.later.push_back(over);
+      continue;
+    }
+    const HalfedgeId entry = ground_->twin(over.edge);
+    if (!entry.valid() || !side.met.insert(Tin::triangle_of(entry).value())) continue;
+    const VertexId apex = ground_->apex(entry);
+    const Position at = position(side, apex);
+    if (const auto found = beside(side, apex, at)) {
+      insert(*found, side);
+      if (enough()) return false;
+    }
+    pending_.push_back(border(Tin::next(entry), over.from, at));
+    pending_.push_back(border(Tin::previous(entry), at, over.to));
   }
-  return *best;
+  return true;
+}
+
+// Whether at most `most_` vertices of the side are inside the circle through u, v and one on the other side.
+bool Pencil::few_inside(Side& side, const Beside& corner) {
+  side.later.clear();
+  side.met.clear();
+  pending_.clear();
+  for (const TriangleId t : passed_) side.met.insert(t.value());
+  for (const HalfedgeId h : side.borders) {
+    const Position from = position(side, ground_->origin(h)), to = position(side, ground_->target(h));
+    pending_.push_back(border(h, from, to));
+  }
+  const auto many = [&] {
+    return side.nearest.size() > most_ && inside(side.to, side.from, corner, side.nearest.back());
+  };
+  return !many() && spread(
+                        side, [&] { return corner.error - corner.cotangent; }, many);
+}
+
+// Goes on to the `most_` + 1 nearest. The limit was smaller before, and only gets smaller here.
+void Pencil::complete(Side& side) {
+  pending_.swap(side.later);
+  side.later.clear();
+  spread(
+      side,
+      [&] {
+        const Beside& last = side.nearest.back();
+        return side.nearest.size() > most_ ? last.cotangent + last.error : kUnbounded;
+      },
+      [] { return false; });
 }
 
 // Whether x, beyond the edge between from and to, is inside the circle through its ends and a corner on the
@@ -153,37 +168,23 @@ bool Pencil::inside(Point2 from, Point2 to, const Beside& corner, const Beside& 
   return in_circle_perturbed(from, to, ground_->point(corner.vertex), ground_->point(x.vertex));
 }
 
-// Whether at most `most_` vertices on the left are inside the circle through u, v and one on the right.
-bool Pencil::few_inside(const Start& start, const Beside& corner) {
-  counted_.clear();
-  search(
-      start,
-      [&](const Beside& found) {
-        const bool counts = inside(to_, from_, corner, found) &&
-                            std::find(counted_.begin(), counted_.end(), found.vertex) == counted_.end();
-        if (counts) counted_.push_back(found.vertex);
-        return counted_.size() <= most_;
-      },
-      [&] { return corner.error - corner.cotangent; });
-  return counted_.size() <= most_;
-}
-
 // The faces that uv passes; false if there is a vertex on it, or it has too many vertices of such faces on
 // one side.
 bool Pencil::pass(VertexId u, VertexId v) {
   const Point2 from = ground_->point(u), to = ground_->point(v);
   HalfedgeId crossed;
   for (const HalfedgeId h : ground_->outgoing(u)) {
-    if (orientation(from, ground_->point(ground_->target(h)), to) <= 0 ||
-        orientation(from, to, ground_->point(ground_->apex(h))) <= 0) {
+    const VertexId one = ground_->target(h), other = ground_->apex(h);
+    if (one == v || other == v) return false;
+    if (crossed.valid() || orientation(from, ground_->point(one), to) <= 0 ||
+        orientation(from, to, ground_->point(other)) <= 0) {
       continue;
     }
     crossed = Tin::next(h);
-    right_start_.vertices.push_back(ground_->origin(crossed));
-    right_start_.borders.push_back(h);
-    left_start_.vertices.push_back(ground_->target(crossed));
-    left_start_.borders.push_back(Tin::previous(h));
-    break;
+    right_.vertices.push_back(one);
+    right_.borders.push_back(h);
+    left_.vertices.push_back(other);
+    left_.borders.push_back(Tin::previous(h));
   }
   while (crossed.valid()) {
     passed_.push_back(Tin::triangle_of(crossed));
@@ -192,49 +193,43 @@ bool Pencil::pass(VertexId u, VertexId v) {
     const VertexId apex = ground_->apex(entry);
     const int side = apex == v ? 0 : orientation(from, to, ground_->point(apex));
     if (side == 0 && apex != v) return false;
-    if (side <= 0) right_start_.borders.push_back(Tin::next(entry));
-    if (side >= 0) left_start_.borders.push_back(Tin::previous(entry));
+    if (side <= 0) right_.borders.push_back(Tin::next(entry));
+    if (side >= 0) left_.borders.push_back(Tin::previous(entry));
     if (apex == v) {
       passed_.push_back(Tin::triangle_of(entry));
       return true;
     }
-    Start& start = side > 0 ? left_start_ : right_start_;
-    start.vertices.push_back(apex);
-    if (start.vertices.size() > most_) return false;
+    Side& here = side > 0 ? left_ : right_;
+    here.vertices.push_back(apex);
+    if (here.vertices.size() > most_) return false;
     crossed = side > 0 ? Tin::next(entry) : Tin::previous(entry);
   }
   return false;
-}
-
-void Pencil::look_from(VertexId u, VertexId v) {
-  from_ = ground_->point(u);
-  to_ = ground_->point(v);
 }
 
 bool Pencil::look_at(VertexId u, VertexId v) {
   u_ = u;
   v_ = v;
   passed_.clear();
-  left_start_.clear();
-  right_start_.clear();
-  const bool in_ground = ground_->find_halfedge(u, v).valid() || ground_->find_halfedge(v, u).valid();
-  if (in_ground || !pass(u, v)) return false;
-  look_from(u, v);
-  const Beside on_left = nearest(left_start_);
-  look_from(v, u);
-  const Beside on_right = nearest(right_start_);
-  if (!few_inside(right_start_, on_left)) return false;
-  look_from(u, v);
-  if (!list(left_start_, on_right, left_)) return false;
-  look_from(v, u);
-  list(right_start_, on_left, right_);
-  look_from(u, v);
+  left_.start(ground_->point(u), ground_->point(v));
+  right_.start(ground_->point(v), ground_->point(u));
+  if (!pass(u, v)) return false;
+  begin(left_);
+  begin(right_);
+  const Beside on_left = left_.nearest.front(), on_right = right_.nearest.front();
+  // The nearer one has the larger circle on the other side.
+  const bool right_first = on_left.cotangent <= on_right.cotangent;
+  if (right_first && !few_inside(right_, on_left)) return false;
+  if (!few_inside(left_, on_right)) return false;
+  if (!right_first && !few_inside(right_, on_left)) return false;
+  complete(left_);
+  complete(right_);
   return true;
 }
 
 std::optional<std::size_t> Pencil::order(std::span<const Beside> side, std::size_t place) const {
   const bool on_left = is_left(side);
-  const Point2 u = on_left ? from_ : to_, v = on_left ? to_ : from_;
+  const Point2 u = on_left ? left_.from : left_.to, v = on_left ? left_.to : left_.from;
   std::size_t count = place;
   for (const Beside& x : on_left ? right() : left()) {
     if (count > most_ || !inside(u, v, side[place], x)) break;
@@ -246,7 +241,8 @@ std::optional<std::size_t> Pencil::order(std::span<const Beside> side, std::size
 // A vertex in the triangle is inside its circle, and on this side.
 bool Pencil::is_empty(std::span<const Beside> side, std::size_t place) const {
   const bool left = is_left(side);
-  const Point2 u = left ? from_ : to_, v = left ? to_ : from_, w = ground_->point(side[place].vertex);
+  const Point2 u = left ? left_.from : left_.to, v = left ? left_.to : left_.from,
+               w = ground_->point(side[place].vertex);
   return std::none_of(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(place), [&](const Beside& x) {
     const Point2 p = ground_->point(x.vertex);
     return orientation(v, w, p) >= 0 && orientation(w, u, p) >= 0;

@@ -33,9 +33,9 @@ class Pencil {
 
   /// The `most` + 1 nearest vertices left of u to v: of these each is inside the circle through u, v and any
   /// that follows. If there are fewer, all.
-  [[nodiscard]] std::span<const Beside> left() const { return left_; }
+  [[nodiscard]] std::span<const Beside> left() const { return left_.nearest; }
   /// The same on the right.
-  [[nodiscard]] std::span<const Beside> right() const { return right_; }
+  [[nodiscard]] std::span<const Beside> right() const { return right_.nearest; }
 
   /// Vertices inside the circle through u, v and one of the list `side`; none if more than `most`.
   [[nodiscard]] std::optional<std::size_t> order(std::span<const Beside> side, std::size_t place) const;
@@ -53,43 +53,48 @@ class Pencil {
   struct Border {
     HalfedgeId edge;
     Position from, to;
+    double square = 0;  ///< of its length
   };
-  /// Where a search beside an edge starts.
-  struct Start {
-    std::vector<VertexId> vertices;   ///< of the faces that the edge passes, on this side
-    std::vector<HalfedgeId> borders;  ///< of these faces, on this side
-    void clear() {
+  /// What lies left of the edge, or of its reverse.
+  struct Side {
+    Point2 from, to;
+    std::vector<VertexId> vertices;   ///< of the faces that the edge passes
+    std::vector<HalfedgeId> borders;  ///< of these faces
+    std::vector<Beside> nearest;
+    std::vector<Border> later;  ///< beyond the limit so far
+    StampedMap met;             ///< triangles
+    void start(Point2 at_from, Point2 at_to) {
+      from = at_from;
+      to = at_to;
       vertices.clear();
       borders.clear();
+      nearest.clear();
     }
   };
 
   bool pass(VertexId u, VertexId v);
-  void enter(HalfedgeId h);
-  void look_from(VertexId u, VertexId v);
-  [[nodiscard]] Beside nearest(const Start& start) const;
-  [[nodiscard]] bool few_inside(const Start& start, const Beside& corner);
-  template <class Meet, class Limit>
-  void search(const Start& start, const Meet& meet, const Limit& limit);
-  bool list(const Start& start, const Beside& corner, std::vector<Beside>& nearest);
-  void insert(const Beside& fresh, std::vector<Beside>& nearest) const;
-  [[nodiscard]] std::optional<Beside> beside(VertexId x, const Position& at) const;
-  [[nodiscard]] static bool reaches(const Border& border, double square, double cotangent);
-  [[nodiscard]] Position position(VertexId x) const;
-  [[nodiscard]] bool nearer(const Beside& one, const Beside& other) const;
+  void begin(Side& side) const;
+  [[nodiscard]] bool few_inside(Side& side, const Beside& corner);
+  void complete(Side& side);
+  template <class Limit, class Enough>
+  bool spread(Side& side, const Limit& limit, const Enough& enough);
+  void insert(const Beside& fresh, Side& side) const;
+  [[nodiscard]] std::optional<Beside> beside(const Side& side, VertexId x, const Position& at) const;
+  [[nodiscard]] Border border(HalfedgeId edge, const Position& from, const Position& to) const;
+  [[nodiscard]] static bool reaches(const Border& border, double cotangent);
+  [[nodiscard]] Position position(const Side& side, VertexId x) const;
+  [[nodiscard]] bool nearer(const Side& side, const Beside& one, const Beside& other) const;
   [[nodiscard]] bool inside(Point2 from, Point2 to, const Beside& corner, const Beside& x) const;
-  [[nodiscard]] bool is_left(std::span<const Beside> side) const { return side.data() == left_.data(); }
+  [[nodiscard]] bool is_left(std::span<const Beside> side) const {
+    return side.data() == left_.nearest.data();
+  }
 
   const Tin* ground_;
   std::size_t most_;
   VertexId u_, v_;
-  Point2 from_, to_;  ///< of the search that is under way
-  Start left_start_, right_start_;
-  std::vector<Beside> left_, right_;
+  Side left_, right_;
   std::vector<TriangleId> passed_;
   std::vector<Border> pending_;
-  std::vector<VertexId> counted_;
-  StampedMap met_;  ///< triangles
 };
 
 }  // namespace thalweg::detail
