@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace thalweg {
@@ -18,13 +20,21 @@ struct FaceLabels {
   std::vector<Cost<Criteria>> unary;  ///< by label
   std::vector<std::uint32_t> side;    ///< sides beyond which there is another face, ascending
   /// For each of these, for each label: which of the side's candidates it has.
-  std::vector<std::vector<std::uint16_t>> at_side;
-  std::vector<PlateauLink> link;                 ///< what free edges of the face join, ascending
-  std::vector<std::vector<std::uint8_t>> joins;  ///< for each of these, by label: 1 if it does
+  std::vector<std::uint16_t> at_side;
+  std::vector<PlateauLink> link;    ///< what free edges of the face join, ascending
+  std::vector<std::uint8_t> joins;  ///< for each of these, for each label: 1 if it does
   /// Whether, whatever is chosen in other faces, one of the labels costs no more than any triangulation of
   /// the face.
   bool complete = true;
   bool relaxed = false;  ///< one label that stands for all triangulations; none is listed
+
+  /// By label: the candidate that it has at one of the sides.
+  [[nodiscard]] std::span<const std::uint16_t> places(std::size_t at) const {
+    return std::span(at_side).subspan(at * unary.size(), unary.size());
+  }
+  [[nodiscard]] bool has_link(std::size_t at, std::size_t label) const {
+    return joins[at * unary.size() + label] != 0;
+  }
 };
 
 struct LabelLimits {
@@ -32,13 +42,26 @@ struct LabelLimits {
   std::size_t few_labels = 1;  ///< kept at each front once all comparisons are spent
 };
 
-/// The triangulations that may be best for something that is chosen in other faces, found without listing the
-/// others. Where the limits leave some out, the labels are not complete.
-/// Pre: the graph is of the face and has an empty front. Complexity: for each front what comes to it times
-/// what is kept there.
+/// Labels faces one by one: memory is reused from face to face.
 template <std::size_t Criteria>
-FaceLabels<Criteria> label_face(const FaceModel<Criteria>& model, const FrontGraph& graph,
-                                const LabelLimits& limits);
+class FaceLabeller {
+ public:
+  FaceLabeller();
+  ~FaceLabeller();
+  FaceLabeller(const FaceLabeller&) = delete;
+  FaceLabeller& operator=(const FaceLabeller&) = delete;
+
+  /// The triangulations that may be best for something that is chosen in other faces, found without listing
+  /// the others. Where the limits leave some out, the labels are not complete.
+  /// Pre: the graph is of the face and has an empty front. Complexity: for each front what comes to it times
+  /// what is kept there.
+  FaceLabels<Criteria> label(const FaceModel<Criteria>& model, const FrontGraph& graph,
+                             const LabelLimits& limits);
+
+ private:
+  class Program;
+  std::unique_ptr<Program> program_;
+};
 
 /// Adds labels of the same face. Pre: both are of one model.
 template <std::size_t Criteria>

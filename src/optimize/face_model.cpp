@@ -15,130 +15,118 @@ namespace {
 
 constexpr std::size_t kSides = 4096;
 
-template <std::size_t Criteria>
-class Modeller {
- public:
-  Modeller(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides, std::size_t face)
-      : terms_(terms), sides_(sides) {
-    model_.terms = &terms;
-    model_.face = face;
-    model_.triangles = terms.faces.faces.row(face);
-  }
-
-  FaceModel<Criteria> run(std::span<const PlateauLink> links) {
-    model_.corners.reserve(model_.triangles.size());
-    model_.own.reserve(model_.triangles.size());
-    for (const std::uint32_t t : model_.triangles) {
-      model_.corners.push_back(face_of(terms_.tin, terms_.faces, t, terms_.scale));
-      model_.own.push_back(terms_.of(model_.corners.back()));
-      if (terms_.order_level) model_.own.back()[*terms_.order_level] += terms_.faces.triangles[t].order;
-    }
-    group_sides();
-    for (std::uint32_t g = 0; g < model_.groups.size(); ++g) weigh(g);
-    if (!links.empty()) note_links(links);
-    return std::move(model_);
-  }
-
- private:
-  void group_sides() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // side, triangle and corner
-    entries.reserve(3 * model_.triangles.size());
-    for (std::uint32_t i = 0; i < model_.triangles.size(); ++i) {
-      for (std::uint32_t corner = 0; corner < 3; ++corner) {
-        entries.emplace_back(terms_.faces.sides[model_.triangles[i]][corner], 3 * i + corner);
-      }
-    }
-    std::sort(entries.begin(), entries.end());
-    std::vector<FaceGroup>& groups = model_.groups;
-    model_.group.resize(model_.triangles.size());
-    model_.place.resize(model_.triangles.size());
-    for (const auto& [side, entry] : entries) {
-      if (groups.empty() || groups.back().side != side) {
-        const auto last = static_cast<std::uint32_t>(groups.size());
-        groups.push_back({.side = side});
-        if (last > 0 && side % 2 == 1 && groups[last - 1].side == side - 1) {
-          groups[last].opposite = last - 1;
-          groups[last - 1].opposite = last;
-        }
-      }
-      model_.group[entry / 3][entry % 3] = static_cast<std::uint32_t>(groups.size() - 1);
-      model_.place[entry / 3][entry % 3] = static_cast<std::uint16_t>(groups.back().size++);
-    }
-  }
-
-  void weigh(std::uint32_t index) {
-    FaceGroup& group = model_.groups[index];
-    const std::uint32_t across = group.side ^ 1U;
-    if (group.opposite != FaceGroup::kNone) {
-      if (group.opposite > index) weigh_pairs(group, model_.groups[group.opposite]);
-    } else if (const std::uint32_t between = sides_.index[group.side / 2];
-               between != SideWeights<Criteria>::kNone) {
-      model_.coupled.push_back(index);
-      weigh_coupled(group, sides_.first[between]);
-    } else if (const std::uint32_t fixed = terms_.sides.fixed[across]; fixed != FaceSides::kNoTriangle) {
-      const Face outside = face_of(terms_.tin, terms_.faces, fixed, terms_.scale);
-      for (const std::uint32_t t : model_.members(group)) {
-        const std::size_t i = model_.index_of(t);
-        const Weight<Criteria> more = terms_.of(model_.corners[i], outside);
-        for (std::size_t level = 0; level < Criteria; ++level) model_.own[i][level] += more[level];
-      }
-    }
-  }
-
-  void weigh_coupled(FaceGroup& group, std::size_t first) {
-    const std::uint32_t across = group.side ^ 1U;
-    const std::size_t there = terms_.sides.triangles.row(across).size();
-    const auto possible = sides_.possible.begin() + terms_.sides.triangles.first[across];
-    const bool is_left = group.side % 2 == 0;
-    group.first_weight = model_.weights.size();
-    for (std::size_t i = 0; i < group.size; ++i) {
-      for (std::size_t j = 0; j < there; ++j) {
-        if (possible[static_cast<std::ptrdiff_t>(j)] == 0) continue;
-        model_.weights.push_back(sides_.weights[first + (is_left ? i * there + j : j * group.size + i)]);
-      }
-    }
-    group.size_across = static_cast<std::uint32_t>((model_.weights.size() - group.first_weight) / group.size);
-    group.stride = group.size_across;
-    group.stride_across = 1;
-  }
-
-  void weigh_pairs(FaceGroup& here, FaceGroup& there) {
-    here.first_weight = there.first_weight = model_.weights.size();
-    here.size_across = there.size;
-    here.stride = there.stride_across = there.size;
-    there.size_across = here.size;
-    here.stride_across = there.stride = 1;
-    for (const std::uint32_t left : model_.members(here)) {
-      const Face& of_left = model_.corners[model_.index_of(left)];
-      for (const std::uint32_t right : model_.members(there)) {
-        model_.weights.push_back(terms_.of(of_left, model_.corners[model_.index_of(right)]));
-      }
-    }
-  }
-
-  void note_links(std::span<const PlateauLink> links) {
-    const auto joins = [&](const FaceGroup& group) {
-      const PlateauLink& link = links[group.side / 2];
-      return link.first != link.second && terms_.faces.edges[group.side / 2].free;
-    };
-    for (const FaceGroup& group : model_.groups) {
-      if (joins(group)) model_.links.push_back(links[group.side / 2]);
-    }
-    std::sort(model_.links.begin(), model_.links.end());
-    model_.links.erase(std::unique(model_.links.begin(), model_.links.end()), model_.links.end());
-    for (FaceGroup& group : model_.groups) {
-      if (!joins(group)) continue;
-      const auto at = std::lower_bound(model_.links.begin(), model_.links.end(), links[group.side / 2]);
-      group.link = static_cast<std::uint32_t>(at - model_.links.begin());
-    }
-  }
-
-  const FaceTerms<Criteria>& terms_;
-  const SideWeights<Criteria>& sides_;
-  FaceModel<Criteria> model_;
-};
-
 }  // namespace
+
+template <std::size_t Criteria>
+const FaceModel<Criteria>& FaceModeller<Criteria>::model(std::size_t face) {
+  model_.start(terms_, face);
+  for (const std::uint32_t t : model_.triangles) {
+    model_.corners.push_back(face_of(terms_.tin, terms_.faces, t, terms_.scale));
+    model_.own.push_back(terms_.of(model_.corners.back()));
+    if (terms_.order_level) model_.own.back()[*terms_.order_level] += terms_.faces.triangles[t].order;
+  }
+  group_sides();
+  for (std::uint32_t g = 0; g < model_.groups.size(); ++g) weigh(g);
+  if (!links_.empty()) note_links();
+  return model_;
+}
+
+template <std::size_t Criteria>
+void FaceModeller<Criteria>::group_sides() {
+  entries_.clear();
+  for (std::uint32_t i = 0; i < model_.triangles.size(); ++i) {
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      entries_.emplace_back(terms_.faces.sides[model_.triangles[i]][corner], 3 * i + corner);
+    }
+  }
+  std::sort(entries_.begin(), entries_.end());
+  std::vector<FaceGroup>& groups = model_.groups;
+  for (const auto& [side, entry] : entries_) {
+    if (groups.empty() || groups.back().side != side) {
+      const auto last = static_cast<std::uint32_t>(groups.size());
+      groups.push_back({.side = side});
+      if (last > 0 && side % 2 == 1 && groups[last - 1].side == side - 1) {
+        groups[last].opposite = last - 1;
+        groups[last - 1].opposite = last;
+      }
+    }
+    model_.group[entry / 3][entry % 3] = static_cast<std::uint32_t>(groups.size() - 1);
+    model_.place[entry / 3][entry % 3] = static_cast<std::uint16_t>(groups.back().size++);
+  }
+}
+
+template <std::size_t Criteria>
+void FaceModeller<Criteria>::weigh(std::uint32_t index) {
+  FaceGroup& group = model_.groups[index];
+  const std::uint32_t across = group.side ^ 1U;
+  if (group.opposite != FaceGroup::kNone) {
+    if (group.opposite > index) weigh_pairs(group, model_.groups[group.opposite]);
+  } else if (const std::uint32_t between = sides_.index[group.side / 2];
+             between != SideWeights<Criteria>::kNone) {
+    model_.coupled.push_back(index);
+    weigh_coupled(group, sides_.first[between]);
+  } else if (const std::uint32_t fixed = terms_.sides.fixed[across]; fixed != FaceSides::kNoTriangle) {
+    const Face outside = face_of(terms_.tin, terms_.faces, fixed, terms_.scale);
+    for (const std::uint32_t t : model_.members(group)) {
+      const std::size_t i = model_.index_of(t);
+      const Weight<Criteria> more = terms_.of(model_.corners[i], outside);
+      for (std::size_t level = 0; level < Criteria; ++level) model_.own[i][level] += more[level];
+    }
+  }
+}
+
+template <std::size_t Criteria>
+void FaceModeller<Criteria>::weigh_coupled(FaceGroup& group, std::size_t first) {
+  const std::uint32_t across = group.side ^ 1U;
+  const std::size_t there = terms_.sides.triangles.row(across).size();
+  const auto possible = sides_.possible.begin() + terms_.sides.triangles.first[across];
+  const bool is_left = group.side % 2 == 0;
+  group.first_weight = model_.weights.size();
+  for (std::size_t i = 0; i < group.size; ++i) {
+    for (std::size_t j = 0; j < there; ++j) {
+      if (possible[static_cast<std::ptrdiff_t>(j)] == 0) continue;
+      model_.weights.push_back(sides_.weights[first + (is_left ? i * there + j : j * group.size + i)]);
+    }
+  }
+  group.size_across = static_cast<std::uint32_t>((model_.weights.size() - group.first_weight) / group.size);
+  group.stride = group.size_across;
+  group.stride_across = 1;
+}
+
+template <std::size_t Criteria>
+void FaceModeller<Criteria>::weigh_pairs(FaceGroup& here, FaceGroup& there) {
+  here.first_weight = there.first_weight = model_.weights.size();
+  here.size_across = there.size;
+  here.stride = there.stride_across = there.size;
+  there.size_across = here.size;
+  here.stride_across = there.stride = 1;
+  for (const std::uint32_t left : model_.members(here)) {
+    const Face& of_left = model_.corners[model_.index_of(left)];
+    for (const std::uint32_t right : model_.members(there)) {
+      model_.weights.push_back(terms_.of(of_left, model_.corners[model_.index_of(right)]));
+    }
+  }
+}
+
+template <std::size_t Criteria>
+bool FaceModeller<Criteria>::joins(const FaceGroup& group) const {
+  const PlateauLink& link = links_[group.side / 2];
+  return link.first != link.second && terms_.faces.edges[group.side / 2].free;
+}
+
+template <std::size_t Criteria>
+void FaceModeller<Criteria>::note_links() {
+  for (const FaceGroup& group : model_.groups) {
+    if (joins(group)) model_.links.push_back(links_[group.side / 2]);
+  }
+  std::sort(model_.links.begin(), model_.links.end());
+  model_.links.erase(std::unique(model_.links.begin(), model_.links.end()), model_.links.end());
+  for (FaceGroup& group : model_.groups) {
+    if (!joins(group)) continue;
+    const auto at = std::lower_bound(model_.links.begin(), model_.links.end(), links_[group.side / 2]);
+    group.link = static_cast<std::uint32_t>(at - model_.links.begin());
+  }
+}
 
 template <std::size_t Criteria>
 SideWeights<Criteria> weigh_sides(const FaceTerms<Criteria>& terms, const Progress& progress) {
@@ -173,20 +161,11 @@ SideWeights<Criteria> weigh_sides(const FaceTerms<Criteria>& terms, const Progre
   return sides;
 }
 
-template <std::size_t Criteria>
-FaceModel<Criteria> model_face(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
-                               std::span<const PlateauLink> links, std::size_t face) {
-  return Modeller<Criteria>(terms, sides, face).run(links);
-}
-
 template SideWeights<1> weigh_sides(const FaceTerms<1>&, const Progress&);
 template SideWeights<2> weigh_sides(const FaceTerms<2>&, const Progress&);
 template SideWeights<5> weigh_sides(const FaceTerms<5>&, const Progress&);
-template FaceModel<1> model_face(const FaceTerms<1>&, const SideWeights<1>&, std::span<const PlateauLink>,
-                                 std::size_t);
-template FaceModel<2> model_face(const FaceTerms<2>&, const SideWeights<2>&, std::span<const PlateauLink>,
-                                 std::size_t);
-template FaceModel<5> model_face(const FaceTerms<5>&, const SideWeights<5>&, std::span<const PlateauLink>,
-                                 std::size_t);
+template class FaceModeller<1>;
+template class FaceModeller<2>;
+template class FaceModeller<5>;
 
 }  // namespace thalweg

@@ -5,10 +5,12 @@
 #include "optimize/face_pits.hpp"
 #include "optimize/face_terms.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
@@ -70,12 +72,47 @@ struct FaceModel {
     return static_cast<std::size_t>(std::lower_bound(triangles.begin(), triangles.end(), triangle) -
                                     triangles.begin());
   }
+  /// Another face; memory stays.
+  void start(const FaceTerms<Criteria>& of, std::size_t at) {
+    terms = &of;
+    face = at;
+    triangles = of.faces.faces.row(at);
+    corners.clear();
+    own.clear();
+    groups.clear();
+    group.resize(triangles.size());
+    place.resize(triangles.size());
+    coupled.clear();
+    weights.clear();
+    links.clear();
+  }
 };
 
-/// `links`: by candidate edge, as PlateauNodes::link_of; empty if pits are not counted.
-/// Complexity: pairs of candidates at the face's edges.
+/// Models faces one by one: memory is reused from face to face. What it refers to outlives it.
 template <std::size_t Criteria>
-FaceModel<Criteria> model_face(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
-                               std::span<const PlateauLink> links, std::size_t face);
+class FaceModeller {
+ public:
+  /// `links`: by candidate edge, as PlateauNodes::link_of; empty if pits are not counted.
+  FaceModeller(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
+               std::span<const PlateauLink> links)
+      : terms_(terms), sides_(sides), links_(links) {}
+
+  /// The model, until the next call. Complexity: pairs of candidates at the face's edges.
+  const FaceModel<Criteria>& model(std::size_t face);
+
+ private:
+  void group_sides();
+  void weigh(std::uint32_t index);
+  void weigh_coupled(FaceGroup& group, std::size_t first);
+  void weigh_pairs(FaceGroup& here, FaceGroup& there);
+  void note_links();
+  [[nodiscard]] bool joins(const FaceGroup& group) const;
+
+  const FaceTerms<Criteria>& terms_;
+  const SideWeights<Criteria>& sides_;
+  std::span<const PlateauLink> links_;
+  FaceModel<Criteria> model_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries_;  ///< side; triangle and corner
+};
 
 }  // namespace thalweg

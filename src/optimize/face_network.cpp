@@ -65,7 +65,7 @@ class Builder {
   [[nodiscard]] std::span<const std::uint16_t> column(std::uint32_t face, std::uint32_t side) const {
     const FaceLabels<Criteria>& labels = faces_[face];
     const auto at = std::lower_bound(labels.side.begin(), labels.side.end(), side);
-    return labels.at_side[static_cast<std::size_t>(at - labels.side.begin())];
+    return labels.places(static_cast<std::size_t>(at - labels.side.begin()));
   }
 
   // At an edge between two faces; a relaxed face has one class more there, the least of all.
@@ -168,7 +168,7 @@ class Builder {
     std::vector<std::vector<std::uint8_t>> pattern;  // by class
     for (std::size_t label = 0; label < face.unary.size(); ++label) {
       std::vector<std::uint8_t> joins;
-      for (std::size_t i = begin; i < end; ++i) joins.push_back(face.joins[list[i].link][label]);
+      for (std::size_t i = begin; i < end; ++i) joins.push_back(face.has_link(list[i].link, label) ? 1 : 0);
       const auto [at, fresh] = patterns.try_emplace(joins, static_cast<std::uint16_t>(pattern.size()));
       if (fresh) pattern.push_back(joins);
       joined.push_back(at->second);

@@ -96,10 +96,10 @@ FaceLabels<Criteria> relax_face(const FaceModel<Criteria>& model, std::uint32_t 
   labels.unary = {cost};
   for (const std::uint32_t g : model.coupled) {
     labels.side.push_back(model.groups[g].side);
-    labels.at_side.push_back({static_cast<std::uint16_t>(model.groups[g].size)});
+    labels.at_side.push_back(static_cast<std::uint16_t>(model.groups[g].size));
   }
   labels.link = model.links;
-  labels.joins.assign(model.links.size(), std::vector<std::uint8_t>{1});
+  labels.joins.assign(model.links.size(), 1);
   labels.relaxed = true;
   return labels;
 }

@@ -20,6 +20,8 @@
 #include <thalweg/optimize/optimize_faces.hpp>
 #include <thalweg/optimize/pit_heuristics.hpp>
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -153,9 +155,11 @@ class FaceRun {
     std::iota(turn.begin(), turn.end(), 0U);
     const auto label = [&](std::size_t block, const LabelLimits& limits) {
       for_each_block(turn.size(), block, progress_, [&](std::size_t begin, std::size_t end) {
+        FaceModeller<Criteria> modeller(terms, sides, links);
+        FaceLabeller<Criteria>& labeller = labellers_.local();
         for (std::size_t i = begin; i < end; ++i) {
           const std::uint32_t f = turn[i];
-          labels[f] = label_face(model_face(terms, sides, links, f), searched_[f].graph, limits);
+          labels[f] = labeller.label(modeller.model(f), searched_[f].graph, limits);
           labels[f].complete = labels[f].complete && searched_[f].whole;
         }
       });
@@ -178,15 +182,16 @@ class FaceRun {
         offered_.push_back(remove_pits(delaunay_, faces_, heuristic, progress_));
     }
     const std::vector<PlateauLink> links = links_for(terms);
+    FaceModeller<Criteria> modeller(terms, sides, links);
     for (std::size_t f = 0; f < labels.size(); ++f) {
       if (labels[f].complete) continue;
-      const FaceModel<Criteria> model = model_face(terms, sides, links, f);
+      const FaceModel<Criteria>& model = modeller.model(f);
       for (const std::vector<OrderTriangle>& offer : offered_) {
         std::vector<std::uint8_t> chosen;
         for (const std::uint32_t t : model.triangles)
           chosen.push_back(std::binary_search(offer.begin(), offer.end(), faces_.triangles[t]) ? 1 : 0);
         if (const auto path = path_of(faces_, f, chosen))
-          add_labels(label_face(model, *path, LabelLimits{}), labels[f]);
+          add_labels(labellers_.local().label(model, *path, LabelLimits{}), labels[f]);
       }
     }
   }
@@ -195,9 +200,10 @@ class FaceRun {
                      std::vector<FaceLabels<Criteria>>& labels) {
     const std::vector<PlateauLink> links = links_for(terms);
     for_each_block(labels.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+      FaceModeller<Criteria> modeller(terms, sides, links);
       for (std::size_t f = begin; f < end; ++f) {
         if (labels[f].complete) continue;
-        labels[f] = relax_face(model_face(terms, sides, links, f), labels[f].triangulations.size);
+        labels[f] = relax_face(modeller.model(f), labels[f].triangulations.size);
       }
     });
   }
@@ -228,7 +234,7 @@ class FaceRun {
     for (std::size_t f = 0; f < labels.size(); ++f) {
       const FaceLabels<Criteria>& face = labels[f];
       for (std::size_t l = 0; l < face.link.size(); ++l) {
-        if (face.joins[l][chosen[f]] != 0) joined.unite(face.link[l].first, face.link[l].second);
+        if (face.has_link(l, chosen[f])) joined.unite(face.link[l].first, face.link[l].second);
       }
     }
     std::map<std::uint32_t, PlateauSet> sets;
@@ -436,6 +442,7 @@ class FaceRun {
   SolverLimits limits_;
   Progress& progress_;
   LabelLimits label_limits_;
+  tbb::enumerable_thread_specific<FaceLabeller<Criteria>> labellers_;
   std::vector<SearchedFace> searched_;
   std::vector<std::vector<OrderTriangle>> offered_;  ///< triangulations of the heuristics, once asked for
   FaceSides sides_;
