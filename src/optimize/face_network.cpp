@@ -10,6 +10,8 @@
 //    costs a pit if its outlet stays in the set. Without all such sets the sum is a bound.
 #include "optimize/face_network.hpp"
 
+#include "base/parallel.hpp"
+
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
@@ -24,6 +26,8 @@
 namespace thalweg {
 
 namespace {
+
+constexpr std::size_t kFaces = 64;
 
 /// A link as an outlet of one of its nodes.
 struct Outlet {
@@ -288,41 +292,44 @@ std::optional<FrontGraph> search_part(const Tin& delaunay, const FixedFaces& fac
   return delaunay_path(delaunay, faces, face);
 }
 
-/// What every triangulation of a face joins.
+/// What every triangulation of a face joins; `link`: by candidate edge.
 std::vector<PlateauLink> links_of_all(const FixedFaces& faces, std::size_t face, const FrontGraph& graph,
-                                      PlateauNodes& pits) {
+                                      std::span<const PlateauLink> link) {
   const std::span<const std::uint32_t> triangles = faces.faces.row(face);
   std::vector<PlateauLink> links;
   for (const std::uint32_t t : triangles) {
     for (const std::uint32_t side : faces.sides[t]) {
-      const PlateauLink link = pits.link_of(side / 2);
-      if (link.first != link.second) links.push_back(link);
+      if (link[side / 2].first != link[side / 2].second) links.push_back(link[side / 2]);
     }
   }
   if (links.empty()) return links;
   std::sort(links.begin(), links.end());
   links.erase(std::unique(links.begin(), links.end()), links.end());
-  std::vector<std::vector<bool>> joined(triangles.size(), std::vector<bool>(links.size(), false));
+  // Rows of bits: by triangle what it joins; by front what all ways on join, once one is known.
+  const std::size_t words = (links.size() + 63) / 64;
+  std::vector<std::uint64_t> joined(triangles.size() * words, 0), behind(graph.front_count * words, 0);
+  std::vector<std::uint8_t> known(graph.front_count, 0);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t side : faces.sides[triangles[i]]) {
-      const auto at = std::lower_bound(links.begin(), links.end(), pits.link_of(side / 2));
-      if (at != links.end() && *at == pits.link_of(side / 2)) joined[i][at - links.begin()] = true;
+      const auto at = std::lower_bound(links.begin(), links.end(), link[side / 2]);
+      if (at == links.end() || *at != link[side / 2]) continue;
+      const auto l = static_cast<std::size_t>(at - links.begin());
+      joined[i * words + l / 64] |= std::uint64_t{1} << (l % 64);
     }
   }
-  // By front: what all ways on join; empty where there is none.
-  std::vector<std::vector<bool>> behind(graph.front_count);
-  behind[*graph.empty_front].assign(links.size(), false);
+  known[*graph.empty_front] = 1;
   std::for_each(graph.arcs.rbegin(), graph.arcs.rend(), [&](const FrontGraph::Arc& arc) {
-    if (behind[arc.to].empty()) return;
-    const bool first = behind[arc.from].empty();
-    if (first) behind[arc.from].assign(links.size(), true);
-    for (std::size_t l = 0; l < links.size(); ++l) {
-      if (!behind[arc.to][l] && !joined[arc.triangle][l]) behind[arc.from][l] = false;
+    if (known[arc.to] == 0) return;
+    for (std::size_t w = 0; w < words; ++w) {
+      const std::uint64_t here = behind[arc.to * words + w] | joined[arc.triangle * words + w];
+      std::uint64_t& all = behind[arc.from * words + w];
+      all = known[arc.from] == 0 ? here : all & here;
     }
+    known[arc.from] = 1;
   });
   std::size_t next = 0;
   for (std::size_t l = 0; l < links.size(); ++l) {
-    if (behind[0][l]) links[next++] = links[l];
+    if ((behind[l / 64] >> (l % 64) & 1U) != 0) links[next++] = links[l];
   }
   links.resize(next);
   return links;
@@ -366,10 +373,11 @@ std::optional<FrontGraph> path_of(const FixedFaces& faces, std::size_t face,
 
 SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::size_t face,
                            std::size_t work_limit) {
+  if (faces.fronts[face].front_count > 0 && faces.fronts[face].work <= work_limit) return {};
   auto graph = find_fronts(faces, face, {.work_limit = work_limit});
   const bool whole = graph.has_value();
   if (!whole) graph = search_part(delaunay, faces, face, work_limit);
-  if (graph) return {std::move(*graph), whole};
+  if (graph) return {std::move(graph), whole};
   const Point2 at = delaunay.point(faces.triangles[faces.faces.row(face)[0]].corners[0]);
   throw Error(ErrorCode::SizeLimit,
               "the face between fixed edges at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
@@ -377,14 +385,24 @@ SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::si
                   "found; take a smaller --order");
 }
 
-void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits) {
+void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits,
+                 const Progress& progress) {
+  // Sets only grow, and what all triangulations join with larger sets only grows, too: so the order in which
+  // faces are looked at does not matter in the end.
   for (bool again = true; again;) {
     again = false;
-    for (std::size_t f = 0; f < searched.size(); ++f) {
-      if (!searched[f].whole) continue;
-      for (const PlateauLink& link : links_of_all(faces, f, searched[f].graph, pits)) {
-        again = pits.sets.unite(link.first, link.second) || again;
+    std::vector<PlateauLink> links(faces.edges.size());
+    for (std::uint32_t e = 0; e < links.size(); ++e) links[e] = pits.link_of(e);
+    std::vector<std::vector<PlateauLink>> found((searched.size() + kFaces - 1) / kFaces);
+    for_each_block(searched.size(), kFaces, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        if (!searched[f].whole) continue;
+        const auto always = links_of_all(faces, f, graph_of(faces, searched, f), links);
+        found[begin / kFaces].insert(found[begin / kFaces].end(), always.begin(), always.end());
       }
+    });
+    for (const std::vector<PlateauLink>& part : found) {
+      for (const auto& [a, b] : part) again = pits.sets.unite(a, b) || again;
     }
   }
 }

@@ -34,8 +34,8 @@ FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const Side
                                     std::span<const PlateauSet> closed);
 
 struct SearchedFace {
-  FrontGraph graph;
-  bool whole = true;  ///< whether it has all triangulations of the face
+  std::optional<FrontGraph> own;  ///< none: that of FixedFaces
+  bool whole = true;              ///< whether it has all triangulations of the face
 };
 
 /// The fronts of a face; where they have more edges than `work_limit`, those of the largest order that has
@@ -48,8 +48,15 @@ SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::si
 std::optional<FrontGraph> path_of(const FixedFaces& faces, std::size_t face,
                                   std::span<const std::uint8_t> chosen);
 
+/// The graph of a face that was searched.
+inline const FrontGraph& graph_of(const FixedFaces& faces, std::span<const SearchedFace> searched,
+                                  std::size_t face) {
+  return searched[face].own ? *searched[face].own : faces.fronts[face];
+}
+
 /// Joins nodes that every triangulation of some face joins. Complexity: arcs of all graphs and links of their
 /// faces.
-void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits);
+void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits,
+                 const Progress& progress);
 
 }  // namespace thalweg

@@ -72,7 +72,7 @@ class FaceRun {
       if (!counts_pits(level)) continue;
       pit_level_ = level;
       pits_ = find_plateau_nodes(delaunay, faces);
-      join_always(faces, searched_, *pits_);
+      join_always(faces, searched_, *pits_, progress);
     }
     progress_.advance(1);
   }
@@ -159,7 +159,7 @@ class FaceRun {
         FaceLabeller<Criteria>& labeller = labellers_.local();
         for (std::size_t i = begin; i < end; ++i) {
           const std::uint32_t f = turn[i];
-          labels[f] = labeller.label(modeller.model(f), searched_[f].graph, limits);
+          labels[f] = labeller.label(modeller.model(f), graph_of(faces_, searched_, f), limits);
           labels[f].complete = labels[f].complete && searched_[f].whole;
         }
       });

@@ -41,16 +41,17 @@ constexpr std::size_t kMostCrossings = 20'000'000;
                                         "order, fewer vertices, or a stronger definition");
 }
 
-/// Items of each row, ascending, each once.
-Rows rows_of(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs, std::size_t count,
-             const Progress& progress) {
+/// Items of each row, ascending, each once. `visit_all` calls what it is given with each row and item, the
+/// same ones each time: no list of them is needed.
+template <class VisitAll>
+Rows rows_of(const VisitAll& visit_all, std::size_t count, const Progress& progress) {
   Rows rows;
   rows.first.assign(count + 1, 0);
-  for (const auto& [row, item] : pairs) ++rows.first[row + 1];
+  visit_all([&](std::uint32_t row, std::uint32_t /*item*/) { ++rows.first[row + 1]; });
   std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
-  rows.items.resize(pairs.size());
+  rows.items.resize(rows.first.back());
   std::vector<std::uint32_t> next(rows.first.begin(), rows.first.end() - 1);
-  for (const auto& [row, item] : pairs) rows.items[next[row]++] = item;
+  visit_all([&](std::uint32_t row, std::uint32_t item) { rows.items[next[row]++] = item; });
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const auto from = rows.items.begin() + rows.first[row], to = rows.items.begin() + rows.first[row + 1];
@@ -104,14 +105,15 @@ class Finder {
 };
 
 void Finder::number_edges() {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
-  ends.reserve(3 * found_.triangles.size());
-  for (const OrderTriangle& t : found_.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      ends.emplace_back(std::minmax({t.corners[i].value(), t.corners[(i + 1) % 3].value()}));
+  const auto visit_ends = [&](const auto& visit) {
+    for (const OrderTriangle& t : found_.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto ends = std::minmax({t.corners[i].value(), t.corners[(i + 1) % 3].value()});
+        visit(ends.first, ends.second);
+      }
     }
-  }
-  Rows higher = rows_of(ends, ground_.vertex_count(), progress_);
+  };
+  Rows higher = rows_of(visit_ends, ground_.vertex_count(), progress_);
   found_.edges.assign(higher.items.size(), {});
   for_each_block(higher.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
@@ -161,12 +163,12 @@ std::vector<std::uint32_t> Finder::numbers_in_ground() const {
 }
 
 void Finder::drop_dead_ends() {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> at_side;
-  at_side.reserve(3 * found_.triangles.size());
-  for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
-    for (const std::uint32_t side : found_.sides[t]) at_side.emplace_back(side, t);
-  }
-  const Rows on = rows_of(at_side, 2 * found_.edges.size(), progress_);
+  const auto visit_sides = [&](const auto& visit) {
+    for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
+      for (const std::uint32_t side : found_.sides[t]) visit(side, t);
+    }
+  };
+  const Rows on = rows_of(visit_sides, 2 * found_.edges.size(), progress_);
   std::vector<std::uint32_t> alive(on.size());
   for (std::size_t side = 0; side < on.size(); ++side) {
     alive[side] = static_cast<std::uint32_t>(on.row(side).size());
@@ -249,17 +251,15 @@ void Finder::find_crossings() {
       });
     }
   });
-  const auto joined = [](std::vector<Pairs>& parts) {
-    Pairs all;
-    for (Pairs& part : parts) {
-      all.insert(all.end(), part.begin(), part.end());
-      release(part);
-    }
-    return all;
+  const auto in = [](const std::vector<Pairs>& parts) {
+    return [&parts](const auto& visit) {
+      for (const Pairs& part : parts) {
+        for (const auto& [row, item] : part) visit(row, item);
+      }
+    };
   };
-  Pairs all_passes = joined(passes);
-  const Rows passing = rows_of(all_passes, ground_.triangle_count(), progress_);
-  release(all_passes);
+  const Rows passing = rows_of(in(passes), ground_.triangle_count(), progress_);
+  release(passes);
   crossed.resize(std::max(blocks, passing.size() / kBlock + 1));
   std::atomic<std::size_t> pairs{0};
   for_each_block(passing.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
@@ -277,8 +277,7 @@ void Finder::find_crossings() {
       if (pairs > kMostCrossings) refuse_crossings(edges);
     }
   });
-  const Pairs all_crossed = joined(crossed);
-  found_.crossings = rows_of(all_crossed, edges, progress_);
+  found_.crossings = rows_of(in(crossed), edges, progress_);
 }
 
 }  // namespace
@@ -334,14 +333,18 @@ void cut_into_faces(Candidates& found, const Progress& progress) {
   }
   std::vector<std::uint32_t> face_of(edges, kNone);
   std::uint32_t count = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
-  for (std::uint32_t t = 0; t < found.triangles.size(); ++t) {
-    if (some_free[t] == kNone) continue;
-    std::uint32_t& face = face_of[same.find(some_free[t])];
+  for (std::uint32_t& at : some_free) {
+    if (at == kNone) continue;
+    std::uint32_t& face = face_of[same.find(at)];
     if (face == kNone) face = count++;
-    members.emplace_back(face, t);
+    at = face;
   }
-  found.faces = rows_of(members, count, progress);
+  const auto visit_members = [&](const auto& visit) {
+    for (std::uint32_t t = 0; t < some_free.size(); ++t) {
+      if (some_free[t] != kNone) visit(some_free[t], t);
+    }
+  };
+  found.faces = rows_of(visit_members, count, progress);
 }
 
 bool cover_ground(const Candidates& candidates, const Tin& ground) {

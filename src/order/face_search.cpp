@@ -257,7 +257,7 @@ std::optional<FrontGraph> FaceSearch::find_fronts(const FrontOptions& options) c
       if (cover(fronts[f], triangle, next)) arcs.push_back({f, fronts.number(next), triangle});
     }
   }
-  return FrontGraph{fronts.size(), fronts.find_empty(), std::move(arcs)};
+  return FrontGraph{fronts.size(), fronts.find_empty(), std::move(arcs), fronts.work()};
 }
 
 FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {

@@ -7,9 +7,9 @@
 //    are counted backwards; no path that is followed leads to a dead end.
 #include "base/parallel.hpp"
 #include "order/candidates.hpp"
-#include "order/face_search.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/order/face_fronts.hpp>
 #include <thalweg/order/fixed_faces.hpp>
 
 #include <algorithm>
@@ -57,32 +57,58 @@ std::vector<std::uint64_t> count_paths(const FrontGraph& graph) {
   return paths;
 }
 
+/// Marks the triangles of a face that no path of its graph has; false if there is no path.
+bool mark_dead(const FrontGraph& graph, std::span<const std::uint32_t> triangles,
+               std::vector<std::uint8_t>& dead) {
+  std::vector<std::uint8_t> ends(graph.front_count, 0);
+  if (graph.empty_front) ends[*graph.empty_front] = 1;
+  for (const std::uint32_t t : triangles) dead[t] = 1;
+  std::for_each(graph.arcs.rbegin(), graph.arcs.rend(), [&](const auto& arc) {
+    if (ends[arc.to] == 0) return;
+    ends[arc.from] = 1;
+    dead[triangles[arc.triangle]] = 0;
+  });
+  return ends[0] != 0;
+}
+
+/// Drops dead triangles; faces of which all are alive keep their graphs.
+void drop_dead(FixedFaces& faces, const std::vector<std::uint8_t>& dead, const Progress& progress) {
+  std::vector<FrontGraph> fronts = std::move(faces.fronts);
+  const Rows before = std::move(faces.faces);
+  std::vector<std::uint32_t> number(dead.size() + 1, 0);  // of a triangle that stays
+  for (std::size_t t = 0; t < dead.size(); ++t) number[t + 1] = number[t] + (dead[t] == 0 ? 1 : 0);
+  detail::drop_triangles(faces, dead);
+  detail::cut_into_faces(faces, progress);
+  std::vector<std::uint32_t> face_at(faces.triangles.size(), kNone);  // by its first triangle
+  for (std::uint32_t f = 0; f < faces.faces.size(); ++f) face_at[faces.faces.row(f)[0]] = f;
+  faces.fronts.assign(faces.faces.size(), {});
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    const auto row = before.row(f);
+    if (std::any_of(row.begin(), row.end(), [&](std::uint32_t t) { return dead[t] != 0; })) continue;
+    const std::uint32_t now = face_at[number[row[0]]];
+    if (now != kNone) faces.fronts[now] = std::move(fronts[f]);
+  }
+}
+
 }  // namespace
 
 std::optional<FixedFaces> find_fixed_faces(const Tin& surface, std::vector<OrderTriangle> triangles,
                                            const FixedFaceOptions& options, const Progress& progress) {
   FixedFaces found = detail::find_candidates(surface, std::move(triangles), progress);
   if (!detail::cover_ground(found, surface)) return std::nullopt;
+  found.fronts.assign(found.faces.size(), {});
   std::vector<std::uint8_t> dead(found.triangles.size(), 0);
-  std::atomic<bool> none{false}, any_dead{false};
+  std::atomic<bool> none{false};
   for_each_block(found.faces.size(), kFaces, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t face = begin; face < end; ++face) {
-      const auto orders = detail::search_face(found, face, options.work_limit);
-      if (!orders) continue;
-      if (orders->any == detail::FaceOrders::kUnreachable) none = true;
-      const auto here = found.faces.row(face);
-      for (std::size_t i = 0; i < here.size(); ++i) {
-        if (orders->with_triangle[i] != detail::FaceOrders::kUnreachable) continue;
-        dead[here[i]] = 1;
-        any_dead = true;
-      }
+      auto graph = find_fronts(found, face, {.work_limit = options.work_limit});
+      if (!graph) continue;
+      if (!mark_dead(*graph, found.faces.row(face), dead)) none = true;
+      found.fronts[face] = std::move(*graph);
     }
   });
   if (none) return std::nullopt;
-  if (any_dead) {
-    detail::drop_triangles(found, dead);
-    detail::cut_into_faces(found, progress);
-  }
+  if (std::find(dead.begin(), dead.end(), 1) != dead.end()) drop_dead(found, dead, progress);
   return found;
 }
 

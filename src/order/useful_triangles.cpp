@@ -50,7 +50,6 @@ class EdgeSearch {
         pencils_([&ground, max_order] { return Pencil(ground, max_order); }) {}
 
   std::vector<OrderTriangle> run() {
-    for (const Triangle& corners : ground_.triangles()) found_.push_back({corners, 0});
     std::vector<EdgeKey> now = start();
     std::vector<EdgeKey> known;
     Stretch stretch{0.1, 0.7};
@@ -134,15 +133,15 @@ class EdgeSearch {
       }
       sort_once(fresh[begin / kBlock]);
     });
-    for (std::vector<OrderTriangle>& part : found) {
-      found_.insert(found_.end(), part.begin(), part.end());
-      release(part);
-    }
+    std::move(found.begin(), found.end(), std::back_inserter(found_));
     return joined(fresh);
   }
 
   static std::vector<EdgeKey> joined(std::vector<std::vector<EdgeKey>>& parts) {
     std::vector<EdgeKey> all;
+    std::size_t count = 0;
+    for (const std::vector<EdgeKey>& part : parts) count += part.size();
+    all.reserve(count);
     for (std::vector<EdgeKey>& part : parts) {
       all.insert(all.end(), part.begin(), part.end());
       release(part);
@@ -178,12 +177,16 @@ class EdgeSearch {
   /// What was found, each once: into rows by the first corner, then within each.
   std::vector<OrderTriangle> sorted() {
     std::vector<std::size_t> first(ground_.vertex_count() + 1, 0);
-    for (const OrderTriangle& t : found_) ++first[t.corners[0].index() + 1];
+    const auto visit_all = [&](const auto& visit) {
+      for (const Triangle& corners : ground_.triangles()) visit(OrderTriangle{corners, 0});
+      for (const std::vector<OrderTriangle>& part : found_) std::for_each(part.begin(), part.end(), visit);
+    };
+    visit_all([&](const OrderTriangle& t) { ++first[t.corners[0].index() + 1]; });
     for (std::size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
-    std::vector<OrderTriangle> by_corner(found_.size());
+    std::vector<OrderTriangle> by_corner(first.back());
     std::vector<std::size_t> next(first.begin(), first.end() - 1);
-    for (const OrderTriangle& t : found_) by_corner[next[t.corners[0].index()]++] = t;
-    release(found_);
+    visit_all([&](const OrderTriangle& t) { by_corner[next[t.corners[0].index()]++] = t; });
+    found_ = {};
     for_each_block(next.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         std::sort(by_corner.begin() + static_cast<std::ptrdiff_t>(first[v]),
@@ -198,7 +201,7 @@ class EdgeSearch {
   std::size_t max_order_;
   Progress& progress_;
   tbb::enumerable_thread_specific<Pencil> pencils_;
-  std::vector<OrderTriangle> found_;
+  std::vector<std::vector<OrderTriangle>> found_;  ///< none of the ground
 };
 
 }  // namespace

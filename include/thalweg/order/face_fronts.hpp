@@ -2,8 +2,6 @@
 
 /// All triangulations of one face as the paths of a graph, without listing them.
 
-#include <thalweg/order/fixed_faces.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,6 +9,8 @@
 #include <vector>
 
 namespace thalweg {
+
+struct FixedFaces;
 
 /// A front is what uncovered ground of a face has on its border. Paths from front 0 to the empty one are the
 /// triangulations of the face, each once: an arc covers what is left of its front's lowest edge by a
@@ -25,6 +25,7 @@ struct FrontGraph {
   std::uint32_t front_count = 0;
   std::optional<std::uint32_t> empty_front;  ///< none: the face has no triangulation
   std::vector<Arc> arcs;
+  std::size_t work = 0;  ///< of its fronts, as FrontOptions::work_limit counts
 };
 
 struct FrontOptions {

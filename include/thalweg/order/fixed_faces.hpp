@@ -4,6 +4,7 @@
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/mesh/tin.hpp>
+#include <thalweg/order/face_fronts.hpp>
 #include <thalweg/order/order_triangles.hpp>
 
 #include <array>
@@ -45,6 +46,9 @@ struct FixedFaces {
   std::vector<std::array<std::uint32_t, 3>> sides;
   Rows crossings;  ///< for each edge the free edges that it crosses, ascending
   Rows faces;      ///< for each face with a free edge: its candidate triangles, ascending
+  /// By face: what find_fronts gives, or no fronts where that was more work than allowed, or its triangles
+  /// were others at first.
+  std::vector<FrontGraph> fronts;
 };
 
 struct FixedFaceOptions {
