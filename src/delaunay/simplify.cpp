@@ -8,7 +8,6 @@
 // 4. Triangles that are flat or turned over as written (the written coordinates bend against the plane, most
 //    at a curved rim) get the neighbours that their corners have in the dense TIN, which is valid in both;
 //    then step 3 again.
-#include "base/parallel.hpp"
 #include "growing_tin.hpp"
 
 #include <thalweg/base/assert.hpp>
@@ -94,7 +93,6 @@ class Simplifier {
 
  private:
   void start();
-  void place_waiting(const Tin& tin);
   SimplifyStop grow();
   bool mend_written();
   void take_result(Simplified& result) const;
@@ -133,28 +131,7 @@ void Simplifier::start() {
   Tin tin = triangulate(std::move(points), std::move(heights), constraints, progress_, options_.engine);
   tin = keep_triangles(tin, inside_outline(tin, outline));
   progress_.start_phase("simplify");
-  growing_.start(tin, ids);
-  place_waiting(tin);
-  growing_.rank_all();
-}
-
-void Simplifier::place_waiting(const Tin& tin) {
-  constexpr std::size_t kBlock = 4096;
-  const SurfaceLocator surface(tin);
-  std::vector<std::uint32_t> found(dense_.vertex_count(), kNoSide);
-  for_each_block(dense_.vertex_count(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
-    TriangleId near;
-    for (std::size_t v = begin; v < end; ++v) {
-      if (frame_.fixed[v]) continue;
-      const auto place = surface.locate(dense_.points()[v], near);
-      THALWEG_ASSERT(place.has_value());
-      near = place->triangle;
-      found[v] = near.value();
-    }
-  });
-  for (std::size_t v = found.size(); v-- > 0;) {
-    if (found[v] != kNoSide) growing_.wait(static_cast<std::uint32_t>(v), found[v]);
-  }
+  growing_.start(tin, ids, progress_);
 }
 
 // Step 3.
@@ -178,6 +155,7 @@ SimplifyStop Simplifier::grow() {
 
 // Step 4; whether anything was inserted.
 bool Simplifier::mend_written() {
+  growing_.place_all();
   if (options_.written.empty()) return false;
   std::vector<std::uint32_t> wanted;
   for (const detail::Cell& cell : growing_.cells()) {
@@ -232,9 +210,14 @@ void Simplifier::take_result(Simplified& result) const {
     }
   }
   result.tin = Tin(std::move(points), std::move(heights), triangles, constraints);
+  std::vector<TriangleId> made;
+  made.reserve(triangles.size());
+  for (const Triangle& corner : triangles) {
+    made.push_back(Tin::triangle_of(result.tin.find_halfedge(corner[0], corner[1])));
+  }
+  result.left_out_in.reserve(result.left_out.size());
   for (const VertexId v : result.left_out) {
-    const Triangle& corner = triangles[growing_.cell_of_waiting(v.value())];
-    result.left_out_in.push_back(Tin::triangle_of(result.tin.find_halfedge(corner[0], corner[1])));
+    result.left_out_in.push_back(made[growing_.cell_of_waiting(v.value())]);
   }
   result.max_error = growing_.largest_error();
 }

@@ -158,6 +158,62 @@ TEST(Simplify, AsAPlainGreedyInsertion) {
   }
 }
 
+// A lattice has its own way to the worst vertex; heights are such that no two errors are equal.
+TEST(Simplify, ALatticeAsAPlainGreedyInsertion) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  for (int round = 0; round < 4; ++round) {
+    std::vector<Point2> points;
+    std::vector<double> heights;
+    const std::size_t columns = 17, rows = 14;
+    const double step = round % 2 == 0 ? 1 : 0.3;
+    for (std::size_t i = 0; i < columns * rows; ++i) {
+      points.push_back(
+          {100 + step * static_cast<double>(i % columns), step * static_cast<double>(i / columns)});
+      heights.push_back(hills(points.back().x, points.back().y) + random.real(-0.3, 0.3));
+    }
+    std::vector<ConstraintEdge> edges;
+    if (round >= 2) edges.push_back(test::edge(35, 36, EdgeKind::Valley));
+    const Tin dense = tin_of(points, heights, edges);
+    const double limit = random.real(0.5, 1.5);
+    const Simplified result = run(dense, {.max_error = limit});
+    std::vector<VertexId> start{VertexId{0}, VertexId{columns - 1}, VertexId{columns * (rows - 1)},
+                                VertexId{columns * rows - 1}};
+    if (round >= 2) start.insert(start.end(), {VertexId{35}, VertexId{36}});
+    EXPECT_EQ(positions(result.tin), plain_greedy(dense, start, edges, limit));
+    expect_left_out_in_their_triangles(dense, result);
+  }
+}
+
+// The same terrain with and without a vertex that is in no lattice: far off, and of no influence.
+TEST(Simplify, ALatticeAsPointsThatAreNone) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  std::vector<Point2> points;
+  std::vector<double> heights;
+  const std::size_t columns = 60, rows = 50;
+  for (std::size_t i = 0; i < columns * rows; ++i) {
+    points.push_back({static_cast<double>(i % columns), static_cast<double>(i / columns)});
+    heights.push_back(std::floor(hills(points.back().x, points.back().y) * 4));
+  }
+  const std::size_t last = points.size();
+  for (const Point2 p : {Point2{200, 0}, Point2{260, 0}, Point2{200, 40}}) {
+    points.push_back(p);
+    heights.push_back(0);
+  }
+  std::vector<ConstraintEdge> edges{test::edge(last, last + 1, EdgeKind::Boundary),
+                                    test::edge(last + 1, last + 2, EdgeKind::Boundary),
+                                    test::edge(last + 2, last, EdgeKind::Boundary)};
+  const Tin dense = tin_of(points, heights, edges);
+  points.push_back({220.3, 7.1});
+  heights.push_back(0);
+  const Tin other = tin_of(points, heights, edges);
+  for (const double limit : {0.0, 1.0, 3.0, 8.0}) {
+    EXPECT_EQ(positions(run(dense, {.max_error = limit}).tin),
+              positions(run(other, {.max_error = limit}).tin));
+  }
+}
+
 TEST(Simplify, KeepsTheBound) {
   const Tin dense = lattice(23, 19, hills);
   std::size_t before = dense.vertex_count() + 1;
