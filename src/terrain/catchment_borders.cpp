@@ -63,6 +63,7 @@ class BorderFinder {
   }
 
   void look_at(TriangleId t) {
+    if (has_no_border(t)) return;
     const std::uint32_t group = group_of(t);
     for (std::size_t side = 0; side < 3; ++side) {
       const HalfedgeId h = Tin::halfedge(t, side);
@@ -76,6 +77,18 @@ class BorderFinder {
  private:
   static constexpr std::uint32_t kSeveral =
       kOutside - 1;  // as a group no more than a guess: one looks closer
+
+  /// True only if all water of the triangle, and beyond the sides that are its to tell, comes to one sink.
+  [[nodiscard]] bool has_no_border(TriangleId t) const {
+    const std::uint32_t sink = graph_.only_sink[t.index()];
+    bool same = sink != FlowGraph::kSeveralSinks;
+    for (std::size_t side = 0; side < 3; ++side) {  // without a jump
+      const HalfedgeId h = Tin::halfedge(t, side), twin = mesh_.twin(h);
+      const TriangleId beyond = twin.valid() ? Tin::triangle_of(twin) : t;
+      same &= twin.valid() & ((twin < h) | (graph_.only_sink[beyond.index()] == sink));
+    }
+    return same;
+  }
 
   [[nodiscard]] std::uint32_t group_of(TriangleId t) const {
     const std::uint32_t sink = graph_.only_sink[t.index()];

@@ -66,31 +66,41 @@ inline double inner_share(double share) {
 [[gnu::target_clones("default", "avx2", "avx512f")]]
 #endif
 void measure(Batch& batch) {
+  // Loops of their own: all in one are too much for GCC 12 to make vector instructions of.
+  const auto corners = [&batch](std::size_t i) {
+    return std::array<Corner, 3>{Corner{batch.x[0][i], batch.y[0][i], batch.z[0][i]},
+                                 Corner{batch.x[1][i], batch.y[1][i], batch.z[1][i]},
+                                 Corner{batch.x[2][i], batch.y[2][i], batch.z[2][i]}};
+  };
   for (std::size_t i = 0; i < kBatch; ++i) {
-    const Corner a{batch.x[0][i], batch.y[0][i], batch.z[0][i]};
-    const Corner b{batch.x[1][i], batch.y[1][i], batch.z[1][i]};
-    const Corner c{batch.x[2][i], batch.y[2][i], batch.z[2][i]};
-    const double over_ab = sure_fall(a, b, c), over_bc = sure_fall(b, c, a), over_ca = sure_fall(c, a, b);
-    batch.fall[0][i] = over_ab;
-    batch.fall[1][i] = over_bc;
-    batch.fall[2][i] = over_ca;
+    const auto [a, b, c] = corners(i);
+    batch.fall[0][i] = sure_fall(a, b, c);
+    batch.fall[1][i] = sure_fall(b, c, a);
+    batch.fall[2][i] = sure_fall(c, a, b);
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const auto [a, b, c] = corners(i);
     batch.down[0][i] = b.z < a.z ? squared_slope(a, b) : kNone;
     batch.down[1][i] = c.z < b.z ? squared_slope(b, c) : kNone;
     batch.down[2][i] = a.z < c.z ? squared_slope(c, a) : kNone;
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const auto [a, b, c] = corners(i);
     const double x1 = b.x - a.x, y1 = b.y - a.y, z1 = b.z - a.z;
     const double x2 = c.x - a.x, y2 = c.y - a.y, z2 = c.z - a.z;
     const double gx = z1 * y2 - z2 * y1, gy = x1 * z2 - x2 * z1, area = x1 * y2 - x2 * y1;
     batch.slope[i] = (gx * gx + gy * gy) / (area * area);
     // Of three sides one is In and two are not, or the reverse: the odd one is split.
-    const bool ab = over_ab < 0, bc = over_bc < 0, ca = over_ca < 0;
+    const bool ab = batch.fall[0][i] < 0, bc = batch.fall[1][i] < 0, ca = batch.fall[2][i] < 0;
     const bool one = ab ^ bc ^ ca;
     const bool first = ab == one, second = bc == one;
     const auto turned = [&](double p, double q, double r) { return first ? p : (second ? q : r); };
     const double ox = turned(a.x, b.x, c.x), oy = turned(a.y, b.y, c.y);
     const double whole = gx * (turned(b.y, c.y, a.y) - oy) - gy * (turned(b.x, c.x, a.x) - ox);
     const double part = gx * (turned(c.y, a.y, b.y) - oy) - gy * (turned(c.x, a.x, b.x) - ox);
-    batch.split_at[i] = inner_share(part / whole);
+    batch.split_at[i] = part / whole;
   }
+  for (std::size_t i = 0; i < kBatch; ++i) batch.split_at[i] = inner_share(batch.split_at[i]);
 }
 
 /// What a block of triangles found.

@@ -13,6 +13,8 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <utility>
 #include <vector>
 
@@ -27,8 +29,8 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
   const FlowMesh& mesh = graph.mesh;
   std::vector<std::vector<HalfedgeId>> found(mesh.triangle_count() / kBlock + 1);
   for_each_block(mesh.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    std::vector<HalfedgeId>& here = found[begin / kBlock];
-    here.reserve((end - begin) / 4);
+    std::vector<HalfedgeId> here(3 * (end - begin));
+    std::size_t count = 0;
     for (std::size_t t = begin; t < end; ++t) {
       const TriangleShape shape = graph.shape[t];
       unsigned channels = 0;
@@ -39,10 +41,12 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
         const bool goes_on = (fall == Fall::In) | (beyond == Fall::In);
         const bool channel = drains & !goes_on;
         channels |= (channel ? 1U : 0U) << side;
-        if (channel && (!twin.valid() || h < twin)) here.push_back(h);
+        here[count] = h;  // without a jump: which edges are channels cannot be foreseen
+        count += (channel & (h < twin)) ? 1 : 0;  // no twin is greater than any
       }
       graph.channel_sides[t] = static_cast<std::uint8_t>(channels);
     }
+    found[begin / kBlock].assign(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(count));
   });
   return found;
 }
@@ -78,11 +82,9 @@ namespace {
 /// What a triangle waits for: the sides over which it hands water on into triangles that are not done.
 class Awaited {
  public:
-  /// Adds a side over which water is handed on.
-  void add(std::size_t side) {
-    ++count_;
-    sides_ |= 1U << side & 7U;
-  }
+  Awaited() = default;
+  /// `sides`: those over which water is handed on, a bit each.
+  explicit Awaited(unsigned sides) : count_(std::popcount(sides) & 3U), sides_(sides & 7U) {}
   [[nodiscard]] bool some() const { return count_ != 0; }
   [[nodiscard]] bool never() const { return sides_ == 0; }
   /// Whether the side was added, and no channel made of it.
@@ -98,19 +100,22 @@ class Awaited {
   std::uint8_t count_ : 2 = 0;
   std::uint8_t sides_ : 3 = 0;
 };
-using Waiting = LargeVector<Awaited>;
+using Waiting = RawVector<Awaited>;
 
 /// Triangles of one part are done by one thread.
 constexpr std::size_t kPart = 1U << 16U;
+
+/// Those with Fall::Out or Fall::Along, a bit each.
+unsigned draining_sides(TriangleShape shape) {
+  const unsigned drains = shape.falls >> 1U;
+  return (drains & 1U) | (drains >> 1U & 2U) | (drains >> 2U & 4U);
+}
 
 Waiting list_awaited(const FlowGraph& graph, const Progress& progress) {
   Waiting waiting(graph.mesh.triangle_count());
   for_each_block(waiting.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
-      for (std::size_t side = 0; side < 3; ++side) {
-        const bool channel = (graph.channel_sides[t] >> side & 1U) != 0;
-        if (graph.shape[t].fall(side) >= Fall::Out && !channel) waiting[t].add(side);
-      }
+      waiting[t] = Awaited(draining_sides(graph.shape[t]) & ~unsigned{graph.channel_sides[t]});
     }
   });
   return waiting;
@@ -143,47 +148,56 @@ class PieceFinder {
   std::vector<HalfedgeId> take_outside() { return std::exchange(outside_, {}); }
 
  private:
+  /// What runs over a side out of the triangle comes to; `channels`: of the triangle.
+  [[nodiscard]] FlowTarget beyond(HalfedgeId h, unsigned side, unsigned channels) const {
+    return graph_->target[((channels >> side & 1U) != 0 ? h : graph_->mesh.twin(h)).index()];
+  }
+
   void finish(TriangleId t) {
-    const Strip strip = graph_->strip_of(t);
-    const HalfedgeId after = Tin::next(strip.split), before = Tin::previous(strip.split);
-    if (strip.corner_is_low) {
+    constexpr std::array<unsigned, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
+    const TriangleShape shape = graph_->shape[t.index()];
+    const unsigned channels = graph_->channel_sides[t.index()];
+    const double at = graph_->split_at[t.index()];
+    const unsigned split_side = shape.split, next_side = kNext[split_side], last_side = kPrevious[split_side];
+    const HalfedgeId split = Tin::halfedge(t, split_side), after = Tin::halfedge(t, next_side),
+                     before = Tin::halfedge(t, last_side);
+    if (shape.corner_is_low != 0) {
       writer_->start();
-      append(before, 0, 1, 0, strip.at);
-      append(after, 0, 1, strip.at, 1);
-      keep(strip.split);
+      append(beyond(before, last_side, channels), 0, 1, 0, at);
+      append(beyond(after, next_side, channels), 0, 1, at, 1);
+      keep(split);
       return;
     }
-    const double top = 1 - strip.at;  // along the twin of the Out side
-    const FlowTarget target = graph_->beyond(strip.split);
+    const double top = 1 - at;  // along the twin of the Out side
+    const FlowTarget target = beyond(split, split_side, channels);
     if (!target.many()) {
-      set_next(strip.split, target.index());
+      set_next(split, before, target.index());
       set(after, target);
       set(before, target);
       return;
     }
     writer_->start();
-    append(strip.split, 0, top, 0, 1);
+    append(target, 0, top, 0, 1);
     keep(after);
     writer_->start();
-    append(strip.split, top, 1, 0, 1);
+    append(target, top, 1, 0, 1);
     keep(before);
     const FlowPiece* piece = graph_->pieces.at(target.index());
     while (piece->end < top && piece->last == 0) ++piece;
     while (piece->end <= top && piece->last == 0) ++piece;
-    set_next(strip.split, piece->node);
+    set_next(split, before, piece->node);
   }
 
   /// What the line of flow from the high corner across `split` comes to, if the corner's water takes it.
-  void set_next(HalfedgeId split, FlowNode node) {
-    const VertexId v = graph_->mesh.apex(split);
+  void set_next(HalfedgeId split, HalfedgeId before, FlowNode node) {
+    const VertexId v = graph_->mesh.origin(before);
     const VertexStep& step = graph_->step[v.index()];
     if (step.kind == VertexStep::Kind::Cross && step.edge == split) graph_->next[v.index()] = node;
   }
 
-  // Appends what lies in [from, to] of the pieces of x, stretched to [begin, end] of the side that is built.
-  void append(HalfedgeId x, double from, double to, double begin, double end) {
+  // Appends what lies in [from, to] of the pieces, stretched to [begin, end] of the side that is built.
+  void append(FlowTarget target, double from, double to, double begin, double end) {
     if (!(from < to) || !(begin < end)) return;
-    const FlowTarget target = graph_->beyond(x);
     std::uint32_t i = target.index();
     if (!target.many()) return writer_->add(end, i, FlowPiece::kFromCorner);
     const FlowPiece* piece = graph_->pieces.at(i);

@@ -73,6 +73,7 @@ class Tabulator {
     find_spills(lowest_passes(progress));
     progress.advance(0.5);
     measure_all(progress);
+    put_in_order_of_sinks();
     for (const Pit& pit : table_.pits) count(pit);
     progress.advance(1);
     return std::move(table_);
@@ -81,21 +82,44 @@ class Tabulator {
  private:
   static constexpr std::size_t kBlock = 8192;
 
+  /// From here on pits have numbers along the mesh, so what is near is near in memory.
   void list_pits() {
     const double square = scale_.horizontal_metres_per_unit * scale_.horizontal_metres_per_unit;
-    basin_of_sink_.assign(graph_.sinks.size(), kOutside);
+    std::vector<std::pair<VertexId, std::size_t>> places;  // of the bottom; the sink
     for (std::size_t s = 0; s < graph_.sinks.size(); ++s) {
       const Sink& sink = graph_.sinks[s];
-      if (sink.kind != Sink::Kind::Pit && sink.kind != Sink::Kind::Lake) continue;
-      bottom_.push_back(mesh_.own(sink.vertex));
+      if (sink.kind == Sink::Kind::Pit || sink.kind == Sink::Kind::Lake) {
+        places.emplace_back(mesh_.own(sink.vertex), s);
+      }
+    }
+    std::sort(places.begin(), places.end());
+    basin_of_sink_.assign(graph_.sinks.size(), kOutside);
+    for (const auto& [bottom, s] : places) {
+      const Sink& sink = graph_.sinks[s];
+      bottom_.push_back(bottom);
       table_.pits.push_back({.sink = SinkId{s},
                              .vertex = sink.vertex,
                              .vertices = sink.vertices,
                              .lake = sink.kind == Sink::Kind::Lake,
-                             .height = mesh_.height(bottom_.back()),
+                             .height = mesh_.height(bottom),
                              .catchment_area_m2 = sink.area * square});
       basin_of_sink_[s] = static_cast<std::uint32_t>(table_.pits.size());
     }
+  }
+
+  void put_in_order_of_sinks() {
+    std::vector<std::size_t> place(table_.pits.size());  // of each pit in that order
+    std::size_t next = 0;
+    for (const std::uint32_t basin : basin_of_sink_) {
+      if (basin != kOutside) place[basin - 1] = next++;
+    }
+    std::vector<Pit> sorted(table_.pits.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      Pit& pit = table_.pits[i];
+      if (pit.spills_into) pit.spills_into = place[*pit.spills_into];
+      sorted[place[i]] = pit;
+    }
+    table_.pits = std::move(sorted);
   }
 
   void find_basins(const Progress& progress) {

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Water on real terrain: pits, drawn valleys, networks and conditioning, beside GRASS GIS and a priority-flood.
 
-usage: hydrology.py THALWEG TERRAINS [FOLDER [NAME...]]
+usage: hydrology.py THALWEG TERRAINS FOLDER [NAME...]
 
 For each terrain: pits by depth in the raw DEM (8 neighbours), in the Delaunay TIN and in the best TINs of orders 1
-to 3 (fewest pits, or least depth of pits, then smoothest); what filling adds; the share of drawn valleys that drain along themselves; how far the network of the TIN and
-that of r.watershed on the rasterised TIN lie apart; what conditioning changes, beside r.fill.dir and a plain
-priority-flood. Prints tables in Markdown; with FOLDER, draws both networks there. Needs grass-core, python3-gdal,
-python3-scipy, python3-matplotlib.
+to 3 (fewest pits, or least depth of pits, then smoothest); what filling adds; the share of drawn valleys that drain
+along themselves; how far the network of the TIN and that of r.watershed on the rasterised TIN lie apart; what
+conditioning changes, beside r.fill.dir and a plain priority-flood. Writes tables in Markdown to FOLDER, each row as
+soon as it is known (pits.md, networks.md, conditioning.md), and draws both networks there. Needs grass-core,
+python3-gdal, python3-scipy, python3-matplotlib.
 """
 import heapq
 import json
@@ -189,79 +190,105 @@ def dem_of(name, folder, heights, valid, transform, projection):
     return path
 
 
+class Table:
+    """Rows in Markdown, each in the file at once."""
+
+    def __init__(self, path, columns):
+        self.file = open(path, "w", buffering=1)
+        self.add(*columns)
+        self.file.write("|---" * len(columns) + "|\n")
+
+    def add(self, *cells):
+        self.file.write("| " + " | ".join(map(str, cells)) + " |\n")
+
+
+def pit_cells(name, surface, count, classes, volume, share=None, crossed=None, on_valleys=None):
+    lines = ["", "", ""] if share is None or share != share else [f"{share:.1f}", crossed, on_valleys]
+    return [name, surface, count, *classes, f"{volume:.4g}", *lines]
+
+
+class Terrain:
+    def __init__(self, folder):
+        self.name = folder.name
+        self.folder = folder
+        self.dem = folder / "dem.tif"
+        self.heights, self.valid, transform = read_grid(self.dem)
+        self.transform = transform
+        self.ground = abs(transform[1] * transform[5])
+        if self.name.endswith("lonlat"):
+            self.ground *= 111320**2 * np.cos(np.radians(transform[3]))
+        self.flood = flooded(self.heights, self.valid)
+        self.added = np.where(self.valid, self.flood - self.heights, 0)
+
+
+def compare_pits(table, thalweg, terrain, scratch):
+    name, folder = terrain.name, terrain.folder
+    raw = by_class(pits_of(terrain.heights, terrain.valid))
+    table.add(*pit_cells(name, "DEM, 8 neighbours", sum(raw), raw, terrain.added.sum() * terrain.ground))
+    lines = ["--valleys", f"{folder}/lines.gpkg|layername=valleys", "--ridges", f"{folder}/lines.gpkg|layername=ridges"]
+    for row in pit_rows(thalweg, name, [terrain.dem], lines, list(SURFACES)[:4], scratch):
+        table.add(*pit_cells(name, *row))
+    crs = ["--a-crs", "EPSG:4326"] if name.endswith("lonlat") else []
+    for row in pit_rows(thalweg, f"{name}_off", [folder / "points_offgrid.csv"], crs, SCATTERED, scratch):
+        table.add(*pit_cells(name + ", points_offgrid", *row))
+
+
+def compare_networks(table, thalweg, terrain, grass, tin, floats, scratch, pictures):
+    cells = int(SHARE * np.count_nonzero(terrain.valid))
+    grass("r.watershed", "elevation=dem", f"threshold={cells}", "stream=streams", "accumulation=accumulation")
+    streams = grass.raster("streams", scratch / f"{terrain.name}_streams.tif")
+    streams = np.isfinite(streams) & (streams > 0)
+    drain(thalweg, tin, scratch / "network.gpkg", "--min-area", cells * terrain.ground, "--pass-pits", 1e6)
+    mine = burn(scratch / "network.gpkg", floats, scratch / "network.tif")
+    table.add(terrain.name, np.count_nonzero(mine), np.count_nonzero(streams),
+              f"{100 * near_share(mine, streams):.1f}", f"{100 * near_share(streams, mine):.1f}")
+    draw(pictures / f"network_{terrain.name}.png", terrain.heights, terrain.valid, mine, streams)
+
+
+def compare_conditioning(table, thalweg, terrain, grass, tin, scratch):
+    heights, valid = terrain.heights, terrain.valid
+
+    def add(what, count, total, most, left):
+        table.add(terrain.name, what, count, f"{total:.1f}", f"{most:.2f}", left)
+
+    def add_grid(what, change):
+        add(what, np.count_nonzero(change), np.abs(change).sum(), np.abs(change).max(),
+            len(pits_of(np.where(valid, heights + change, 0), valid)))
+
+    grass("r.fill.dir", "input=dem", "output=filled", "direction=direction")
+    filled = grass.raster("filled", scratch / f"{terrain.name}_filled.tif")
+    add_grid("r.fill.dir, 8 neighbours", np.where(valid & (filled > -9000), filled - heights, 0))
+    add_grid("priority-flood, 8 neighbours", terrain.added)
+    for steps in STEPS:
+        report = drain(thalweg, tin, scratch / "water.gpkg", "--condition", steps)
+        done = report["conditioned"]
+        add(f"{steps}, on the TIN of order 1", done["heights"], done["sum_m"], done["max_m"], report["pits"]["interior"])
+
+
 def main():
-    thalweg, terrains = sys.argv[1], pathlib.Path(sys.argv[2])
-    pictures = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
-    names = sys.argv[4:] or DEMS
-    pits, networks, conditioning = [], [], []
+    thalweg, terrains, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    folder.mkdir(parents=True, exist_ok=True)
+    pits = Table(folder / "pits.md", [
+        "terrain", "surface", "pits", *(f"<= {c} m" for c in CLASSES), "more", "volume to fill, m3",
+        "drawn valleys that drain, %", "ridge edges crossed", "triangles on valleys"])
+    networks = Table(folder / "networks.md", [
+        "terrain", "cells of the TIN's network", "cells of r.watershed's",
+        "of the TIN's within one cell of r.watershed's, %", "of r.watershed's within one cell of the TIN's, %"])
+    conditioning = Table(folder / "conditioning.md", [
+        "terrain", "what", "heights changed", "sum of changes, m", "largest, m", "pits left"])
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        for name in names:
-            folder = terrains / name
-            dem = folder / "dem.tif"
-            lines = ["--valleys", f"{folder}/lines.gpkg|layername=valleys", "--ridges", f"{folder}/lines.gpkg|layername=ridges"]
-            heights, valid, transform = read_grid(dem)
-            raw = by_class(pits_of(heights, valid))
-            cell = abs(transform[1])
-            if name.endswith("lonlat"):
-                ground = (111320 * cell) * (111320 * abs(transform[5])) * np.cos(np.radians(transform[3]))
-            else:
-                ground = cell * abs(transform[5])
-            flood = flooded(heights, valid)
-            added = np.where(valid, flood - heights, 0)
-            pits.append((name, "DEM, 8 neighbours", sum(raw), raw, added.sum() * ground, None, None, None))
-            for row in pit_rows(thalweg, name, [dem], lines, list(SURFACES)[:4], scratch):
-                pits.append((name, *row))
-            crs = ["--a-crs", "EPSG:4326"] if name.endswith("lonlat") else []
-            for row in pit_rows(thalweg, f"{name}_off", [folder / "points_offgrid.csv"], crs, SCATTERED, scratch):
-                pits.append((name + ", points_offgrid", *row))
-            print(f"{name}: pits done", file=sys.stderr)
-
+        for name in sys.argv[4:] or DEMS:
+            terrain = Terrain(terrains / name)
+            compare_pits(pits, thalweg, terrain, scratch)
             tin = scratch / f"{name}_order_1.ply"
-            floats = dem_of(name, scratch, heights, valid, transform, gdal.Open(str(dem)).GetProjection())
+            floats = dem_of(name, scratch, terrain.heights, terrain.valid, terrain.transform,
+                            gdal.Open(str(terrain.dem)).GetProjection())
             place = scratch / f"grass_{name}"
             place.mkdir()
             grass = Grass(floats, place)
-            cells = int(SHARE * np.count_nonzero(valid))
-            grass("r.watershed", "elevation=dem", f"threshold={cells}", "stream=streams", "accumulation=accumulation")
-            streams = grass.raster("streams", place / "streams.tif")
-            streams = np.isfinite(streams) & (streams > 0)
-            drain(thalweg, tin, scratch / "network.gpkg", "--min-area", cells * ground, "--pass-pits", 1e6)
-            mine = burn(scratch / "network.gpkg", floats, scratch / "network.tif")
-            networks.append((name, np.count_nonzero(mine), np.count_nonzero(streams), near_share(mine, streams),
-                             near_share(streams, mine)))
-            if pictures:
-                pictures.mkdir(parents=True, exist_ok=True)
-                draw(pictures / f"network_{name}.png", heights, valid, mine, streams)
-            print(f"{name}: networks done", file=sys.stderr)
-
-            grass("r.fill.dir", "input=dem", "output=filled", "direction=direction")
-            filled = grass.raster("filled", place / "filled.tif")
-            rise = np.where(valid & (filled > -9000), filled - heights, 0)
-            conditioning.append((name, "r.fill.dir, 8 neighbours", np.count_nonzero(rise), np.abs(rise).sum(), np.abs(rise).max(),
-                                 len(pits_of(np.where(valid, heights + rise, 0), valid))))
-            conditioning.append((name, "priority-flood, 8 neighbours", np.count_nonzero(added), added.sum(), added.max(),
-                                 len(pits_of(np.where(valid, flood, 0), valid))))
-            for steps in STEPS:
-                report = drain(thalweg, tin, scratch / "water.gpkg", "--condition", steps)
-                done = report["conditioned"]
-                conditioning.append((name, f"{steps}, on the TIN of order 1", done["heights"], done["sum_m"], done["max_m"],
-                                     report["pits"]["interior"]))
-            print(f"{name}: conditioning done", file=sys.stderr)
-    print("| terrain | surface | pits | " + " | ".join(f"<= {c} m" for c in CLASSES) +
-          " | more | volume to fill, m3 | drawn valleys that drain, % | ridge edges crossed | triangles on valleys |")
-    print("|---" * 13 + "|")
-    for name, surface, count, classes, volume, share, crossed, on_valleys in pits:
-        text = [name, surface, count, *classes, f"{volume:.4g}", "" if share is None or share != share else f"{share:.1f}",
-                "" if crossed is None or share != share else crossed, "" if on_valleys is None or share != share else on_valleys]
-        print("| " + " | ".join(map(str, text)) + " |")
-    print("\n| terrain | cells of the TIN's network | cells of r.watershed's | of the TIN's within one cell of r.watershed's, % | "
-          "of r.watershed's within one cell of the TIN's, % |\n" + "|---" * 5 + "|")
-    for name, mine, theirs, one, other in networks:
-        print(f"| {name} | {mine} | {theirs} | {100 * one:.1f} | {100 * other:.1f} |")
-    print("\n| terrain | what | heights changed | sum of changes, m | largest, m | pits left |\n" + "|---" * 6 + "|")
-    for name, what, count, total, most, left in conditioning:
-        print(f"| {name} | {what} | {count} | {total:.1f} | {most:.2f} | {left} |")
+            compare_networks(networks, thalweg, terrain, grass, tin, floats, scratch, folder)
+            compare_conditioning(conditioning, thalweg, terrain, grass, tin, scratch)
 
 
 if __name__ == "__main__":
