@@ -186,7 +186,7 @@ class EdgeSearch {
     std::vector<OrderTriangle> by_corner(first.back());
     std::vector<std::size_t> next(first.begin(), first.end() - 1);
     visit_all([&](const OrderTriangle& t) { by_corner[next[t.corners[0].index()]++] = t; });
-    found_ = {};
+    release(found_);
     for_each_block(next.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         std::sort(by_corner.begin() + static_cast<std::ptrdiff_t>(first[v]),
