@@ -116,8 +116,9 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const P
   const Box2 box = bounding_box(points);
   const double side = std::max(box.width(), box.height());
   const double scale = side > 0 ? (1U << kLevels) / side : 0;
-  const auto cell = [scale](double offset) {
-    return static_cast<std::uint32_t>(std::min(offset * scale, double{(1U << kLevels) - 1}));
+  const auto cell = [scale](double offset) {  // infinite where the box is wider than all numbers
+    constexpr std::uint32_t kLast = (1U << kLevels) - 1;
+    return offset * scale < kLast ? static_cast<std::uint32_t>(offset * scale) : kLast;
   };
   RawVector<Keyed> keyed(points.size());
   for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {

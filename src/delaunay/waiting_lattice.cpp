@@ -107,7 +107,7 @@ std::optional<WaitingLattice::Axis> WaitingLattice::find_axis(std::span<const Po
   }
   const double steps = (high - low) / step;
   if (!(steps >= 1) || steps > 4 * static_cast<double>(count)) return std::nullopt;
-  const auto last = static_cast<std::size_t>(steps + 0.5);
+  const auto last = static_cast<std::size_t>(std::lround(steps));
   Axis axis{.at = std::vector<double>(last + 1, kNone), .by = static_cast<double>(last) / (high - low)};
   axis.at.front() = low;
   for (std::size_t v = 0; v < xy.size(); ++v) {

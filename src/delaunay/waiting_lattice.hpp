@@ -65,7 +65,8 @@ class WaitingLattice {
     double by = 0;  ///< places a unit of length
     [[nodiscard]] double place(double coordinate) const { return (coordinate - at.front()) * by; }
     [[nodiscard]] std::size_t nearest(double coordinate) const {
-      return static_cast<std::size_t>(place(coordinate) + 0.5);
+      const double half_up = place(coordinate) + 0.5;
+      return static_cast<std::size_t>(half_up);
     }
   };
   struct Row;

@@ -308,7 +308,8 @@ class FaceLabeller<Criteria>::Program {
     to.open.assign(open_.begin(), open_.end());
     const std::size_t sides = front.open.size();
     for (std::size_t i = 0; i < front.partials.size(); ++i) {
-      Partial& next = to.partials.emplace_back(front.partials[i].cost, front.partials[i].before, triangle);
+      to.partials.push_back({front.partials[i].cost, front.partials[i].before, triangle});
+      Partial& next = to.partials.back();
       next.cost += cost;
       for (const Closing& c : closing_)
         add(next.cost, model_->weight(*c.group, c.here, front.places[i * sides + c.at]));

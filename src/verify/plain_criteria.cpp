@@ -23,11 +23,13 @@ namespace {
 
 using Extended = long double;
 constexpr Extended kSteps = 0x1p32L;
+constexpr Extended kLargestRatio = 0x1p20L;
 constexpr Extended kDegrees = 180 / std::numbers::pi_v<Extended>;
 
 std::int64_t to_steps(Extended value) {
   constexpr Extended kMost = 0x1p30L;
-  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kMost, kMost) * kSteps + 0.5L));
+  const Extended within = std::isnan(value) ? kMost : std::clamp(value, -kMost, kMost);  // beyond all numbers
+  return static_cast<std::int64_t>(std::floor(within * kSteps + 0.5L));
 }
 
 struct Known {
@@ -72,28 +74,32 @@ Extended doubled_area(const PlainMesh& mesh, PlainScale scale, Index a, Index b,
          scale.horizontal * scale.horizontal;
 }
 
-struct Slope {
-  Extended x, y;
-};
+using Normal = std::array<Extended, 3>;
 
-// The slope of a triangle's plane: its upward normal is (-x, -y, 1).
-Slope slope_of(const PlainMesh& mesh, PlainScale scale, Index a, Index b, Index c) {
-  const Extended bx = (Extended{mesh.at(b).x} - mesh.at(a).x) * scale.horizontal,
-                 by = (Extended{mesh.at(b).y} - mesh.at(a).y) * scale.horizontal,
-                 cx = (Extended{mesh.at(c).x} - mesh.at(a).x) * scale.horizontal,
-                 cy = (Extended{mesh.at(c).y} - mesh.at(a).y) * scale.horizontal,
-                 bz = (Extended{mesh.z[b]} - mesh.z[a]) * scale.vertical,
-                 cz = (Extended{mesh.z[c]} - mesh.z[a]) * scale.vertical;
-  const Extended area = bx * cy - by * cx;
-  return {(bz * cy - cz * by) / area, (cz * bx - bz * cx) / area};
+Normal cross(const Normal& p, const Normal& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 
-// The angle between (-x, -y, 1) and (-x', -y', 1): its tangent is the length of the cross product over the
-// dot.
+/// From a to v, in metres.
+Normal side_of(const PlainMesh& mesh, PlainScale scale, Index a, Index v) {
+  return {(Extended{mesh.at(v).x} - mesh.at(a).x) * scale.horizontal,
+          (Extended{mesh.at(v).y} - mesh.at(a).y) * scale.horizontal,
+          (Extended{mesh.z[v]} - mesh.z[a]) * scale.vertical};
+}
+
+/// Upwards, as long as twice the area.
+Normal normal_of(const PlainMesh& mesh, PlainScale scale, Index a, Index b, Index c) {
+  return cross(side_of(mesh, scale, a, b), side_of(mesh, scale, a, c));
+}
+
+Extended length_of(const Normal& n) {
+  return std::hypot(n[0], n[1], n[2]);
+}
+
+// The angle's tangent is the length of the cross product over the dot.
 Extended normal_angle(const PlainMesh& mesh, PlainScale scale, Index a, Index b, Index l, Index r) {
-  const Slope m = slope_of(mesh, scale, a, b, l), n = slope_of(mesh, scale, b, a, r);
-  const Extended dx = n.x - m.x, dy = n.y - m.y, twist = m.x * n.y - m.y * n.x;
-  return std::atan2(std::sqrt(dx * dx + dy * dy + twist * twist), 1 + m.x * n.x + m.y * n.y);
+  const Normal m = normal_of(mesh, scale, a, b, l), n = normal_of(mesh, scale, b, a, r);
+  return std::atan2(length_of(cross(m, n)), m[0] * n[0] + m[1] * n[1] + m[2] * n[2]);
 }
 
 Extended corner_angle(const PlainMesh& mesh, Index at, Index b, Index c) {
@@ -159,7 +165,6 @@ Extended triangle_part(const PlainMesh& mesh, PlainScale scale, const PlainCrite
 
 Extended edge_part(const PlainMesh& mesh, PlainScale scale, const std::string& name, Index a, Index b,
                    Index l, Index r) {
-  constexpr Extended kLargestRatio = 0x1p20L;
   const bool of_valleys = name == "draining-valleys";
   if (of_valleys && !look_at_valley(mesh, a, b, l, r).drains) return 0;
   if (of_valleys || name == "edge-length") {
@@ -169,7 +174,8 @@ Extended edge_part(const PlainMesh& mesh, PlainScale scale, const std::string& n
   if (name == "convex-edges") return bend(mesh, a, b, l, r) > 0 ? 1 : 0;
   if (name.starts_with("area-ratio")) {
     const Extended left = doubled_area(mesh, scale, a, b, l), right = doubled_area(mesh, scale, b, a, r);
-    return std::min(std::max(left, right) / std::min(left, right), kLargestRatio);
+    const Extended least = std::min(left, right);
+    return least > 0 ? std::min(std::max(left, right) / least, kLargestRatio) : kLargestRatio;
   }
   const Extended angle = normal_angle(mesh, scale, a, b, l, r);
   if (name == "normal-angle-squares") return angle * angle;
@@ -358,18 +364,12 @@ Extended uncertain_valleys(const PlainMesh& mesh, PlainScale scale) {
 /// where it is so thin that its area is small beside the square of its longest side.
 Extended rounding_of(const PlainMesh& mesh, PlainScale scale, bool in_space, Index a, Index b, Index c) {
   constexpr Extended kRounding = 0x1p-50L;
-  const auto side = [&](Index v) {
-    return std::array<Extended, 3>{(Extended{mesh.at(v).x} - mesh.at(a).x) * scale.horizontal,
-                                   (Extended{mesh.at(v).y} - mesh.at(a).y) * scale.horizontal,
-                                   in_space ? (Extended{mesh.z[v]} - mesh.z[a]) * scale.vertical : 0};
-  };
-  const auto p = side(b), q = side(c);
-  const Extended longest = std::max({std::hypot(p[0], p[1], p[2]), std::hypot(q[0], q[1], q[2]),
-                                     std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2])});
-  const Extended product = longest * longest;
-  const Extended area =
-      std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
-  return area > kRounding * product ? kRounding * product / area : 1;
+  if (!in_space) scale.vertical = 0;
+  const Extended longest =
+      std::max({length_of(side_of(mesh, scale, a, b)), length_of(side_of(mesh, scale, b, c)),
+                length_of(side_of(mesh, scale, c, a))});
+  const Extended area = length_of(normal_of(mesh, scale, a, b, c));
+  return area > 0 ? kRounding * longest * longest / area : 1 / kRounding;
 }
 
 /// By how much another correct rounding may change the terms of such a part: all of them, or the one that
@@ -383,9 +383,10 @@ Extended rounding_of_edges(const PlainMesh& mesh, PlainScale scale, const std::s
   for_inner_edges(mesh, [&](Index a, Index b, Index l, Index r) {
     Extended change =
         rounding_of(mesh, scale, of_normals, a, b, l) + rounding_of(mesh, scale, of_normals, b, a, r);
+    if (of_normals) change = std::min(change, kHalfTurn);
     if (name == "normal-angle-squares") change *= 2 * kHalfTurn;
     if (name == "normal-angle-max") change *= kDegrees;
-    if (!of_normals) change *= edge_part(mesh, scale, name, a, b, l, r);
+    if (!of_normals) change = std::min(change * edge_part(mesh, scale, name, a, b, l, r), kLargestRatio);
     sum += change;
     most = std::max(most, change);
   });
