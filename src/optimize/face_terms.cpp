@@ -77,10 +77,9 @@ FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& pr
   }
   tbb::parallel_sort(fresh.begin(), fresh.end(), [&](std::uint32_t e, std::uint32_t f) {
     const auto ends = [&](std::uint32_t edge) {
-      return std::minmax(tin.point(faces.edges[edge].a), tin.point(faces.edges[edge].b));
+      return std::minmax({tin.point(faces.edges[edge].a), tin.point(faces.edges[edge].b)});
     };
-    const std::pair<Point2, Point2> of_e = ends(e), of_f = ends(f);
-    return of_e < of_f;
+    return ends(e) < ends(f);
   });
   sides.tie.assign(faces.edges.size(), 0);
   for (std::size_t rank = 0; rank < fresh.size(); ++rank) sides.tie[fresh[rank]] = tie_of(rank, fresh.size());
