@@ -73,8 +73,9 @@ class OrderWorkspace {
 /// Up to 256 vertices pairs are tested instead of angular sweeps: O(f) and a walk along each line of sight.
 /// Over a simple polygon without vertices inside, with more than 256 in the disc (Table 2 in brackets):
 /// Pathcon, SeesOpp, Sees3vtx, EmptyQuad [n]: O(f), each face entered once by each view; SeesVtx, SeesTriang
-/// [n]: the same, and O(n log n) at most to cut what a side sees; ConfEdge [n log n]: O(n log n), a sweep
-/// over the directions in which each side is crossed.
+/// [n]: the same, and O(n log n) at most to cut what a side sees; ConfEdge [n log n]: O(n log n), one sweep
+/// over the directions in which each side is crossed. Measured on combs, spirals and tunnels of up to 300,000
+/// corners: tests/bench/order/sweeps.md.
 class ConstrainedOrder {
  public:
   /// Pre: `ground` is a triangulation of all its vertices and constraint edges; it covers the convex hull in

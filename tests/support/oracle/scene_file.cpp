@@ -64,10 +64,15 @@ ExpectedTriangle triangle_from(const SceneFile& file, const Json& entry) {
 }
 
 ExpectedEdge edge_expectation_from(const SceneFile& file, const Json& entry) {
-  expect_keys(entry, {"edge", "why", "useful"});
-  ExpectedEdge expected{edge_from(file, entry.at("edge")), entry.at("why").get<std::string>(), {}};
+  expect_keys(entry, {"edge", "why", "useful", "greedy"});
+  ExpectedEdge expected{edge_from(file, entry.at("edge")), entry.at("why").get<std::string>(), {}, {}};
   for (const auto& [name, k] : entry.at("useful").items())
     expected.useful[definition_named(name)] = k.get<int>();
+  for (const Json& corners : entry.value("greedy", Json::array())) {
+    if (corners.size() != 3) throw std::runtime_error("no triangle: " + corners.dump());
+    expected.greedy.push_back(
+        {site_of(file, corners[0]), site_of(file, corners[1]), site_of(file, corners[2])});
+  }
   return expected;
 }
 

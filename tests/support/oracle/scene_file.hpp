@@ -24,6 +24,8 @@ struct ExpectedEdge {
   Edge edge;
   std::string why;
   std::map<Definition, int> useful;
+  std::vector<Corners> greedy;  ///< triangles with which its greedy triangulation fills its hull, step by
+                                ///< step; empty: not told
 };
 
 struct SceneFile {
@@ -40,8 +42,9 @@ std::vector<std::string> scene_names(const std::string& folder);
 /// Throws: std::runtime_error that names the file and what is wrong with it.
 SceneFile read_scene(const std::string& folder, const std::string& name);
 /// The scene as an SVG file: one panel a definition for its first triangle, counted sites as discs, members
-/// of the circle that do not count as rings, others as dots; without triangles the constrained Delaunay
-/// triangulation.
+/// of the circle that do not count as rings, others as dots; then, for each edge whose greedy triangulation
+/// is told, the constrained Delaunay triangulation, the hull, and one panel a step. Without triangles the
+/// constrained Delaunay triangulation alone.
 std::string picture_of(const SceneFile& file);
 
 }  // namespace thalweg::oracle

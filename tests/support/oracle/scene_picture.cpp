@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 namespace thalweg::oracle {
 
@@ -119,12 +120,74 @@ std::string sites(const SceneFile& file, const Frame& frame, SiteSet counted, Si
   return text;
 }
 
+std::string filled(const Scene& scene, const Frame& frame, const Corners& t, const char* color) {
+  return "<path d=\"M" + frame.at(scene.at(t[0])) + "L" + frame.at(scene.at(t[1])) + "L" +
+         frame.at(scene.at(t[2])) + "Z\" fill=\"" + color + "\" stroke=\"#999\"/>\n";
+}
+
+struct Panel {
+  std::string drawing;
+  std::string title;
+};
+
+// Section 2 of the paper, Figure 6: the triangulation, the edge with its hull, and the triangles one by one.
+std::vector<Panel> steps_of(const SceneFile& file, const ExpectedEdge& edge, const Frame& frame) {
+  const Scene& scene = file.scene;
+  const Oracle oracle(scene);
+  const std::vector<Edge> delaunay = edges_of(delaunay_triangles(oracle));
+  const std::vector<Edge> greedy = edges_of(greedy_triangles(oracle, edge.edge));
+  std::vector<Edge> kept;
+  std::set_intersection(delaunay.begin(), delaunay.end(), greedy.begin(), greedy.end(),
+                        std::back_inserter(kept));
+  const auto name = [&](int v) { return escaped(file.labels[static_cast<std::size_t>(v)]); };
+  const std::string ends = name(edge.edge.first) + " " + name(edge.edge.second);
+  std::vector<Panel> panels;
+  for (std::size_t step = 0; step < edge.greedy.size() + 2; ++step) {
+    std::string drawing;
+    for (std::size_t i = 0; i + 2 <= step; ++i) {
+      drawing += filled(scene, frame, edge.greedy[i], i + 2 == step ? "#bbb" : "#ddd");
+    }
+    drawing += lines(scene, frame, step == 0 ? delaunay : kept, "fill=\"none\" stroke=\"#999\"");
+    drawing += lines(scene, frame, scene.constraints, "fill=\"none\" stroke=\"#000\" stroke-width=\"2\"");
+    drawing += lines(scene, frame, {edge.edge},
+                     step == 0 ? "fill=\"none\" stroke=\"#c33\" stroke-dasharray=\"4 3\""
+                               : "fill=\"none\" stroke=\"#c33\" stroke-width=\"1.5\"");
+    std::string title = step == 0 ? "order 0" : "hull of " + ends;
+    if (step >= 2) {
+      const Corners& t = edge.greedy[step - 2];
+      title = std::to_string(step - 1) + ": " + name(t[0]) + " " + name(t[1]) + " " + name(t[2]);
+    }
+    panels.push_back({drawing + sites(file, frame, 0, 0), title});
+  }
+  return panels;
+}
+
+std::vector<Panel> panels_of(const SceneFile& file, const Frame& frame) {
+  if (file.triangles.empty() || file.triangles[0].validity != Validity::Valid) {
+    return {{"<use href=\"#scene\"/>\n" + sites(file, frame, 0, 0), ""}};
+  }
+  std::vector<Panel> panels;
+  const auto& counted = file.triangles[0].counted;
+  for (std::size_t i = 0; i < kDefinitionCount; ++i) {
+    panels.push_back(
+        {"<use href=\"#scene\"/>\n" + sites(file, frame, counted[i], counted[0]),
+         std::string(name_of(kDefinitions[i])) + " " + std::to_string(std::popcount(counted[i]))});
+  }
+  for (const ExpectedEdge& edge : file.edges) {
+    if (edge.greedy.empty()) continue;
+    std::vector<Panel> steps = steps_of(file, edge, frame);
+    std::move(steps.begin(), steps.end(), std::back_inserter(panels));
+  }
+  return panels;
+}
+
 }  // namespace
 
 std::string picture_of(const SceneFile& file) {
   const Frame frame(file);
-  const bool one = file.triangles.empty() || file.triangles[0].validity != Validity::Valid;
-  const std::size_t columns = one ? 1 : 4, rows = one ? 1 : 2;
+  const std::vector<Panel> panels = panels_of(file, frame);
+  const std::size_t columns = std::min<std::size_t>(panels.size(), 4);
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
   const double row = frame.height() + kTitle;
   const std::string width = number(kPanel * static_cast<double>(columns));
   const std::string height = number(row * static_cast<double>(rows));
@@ -132,16 +195,12 @@ std::string picture_of(const SceneFile& file) {
                     "\" width=\"" + width + "\" height=\"" + height +
                     "\" font-family=\"sans-serif\" font-size=\"9\">\n" +
                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + geometry(file, frame);
-  for (std::size_t i = 0; i < columns * rows; ++i) {
+  for (std::size_t i = 0; i < panels.size(); ++i) {
     svg += "<g transform=\"translate(" + number(kPanel * static_cast<double>(i % columns)) + "," +
-           number(row * static_cast<double>(i / columns)) + ")\"><use href=\"#scene\"/>\n";
-    if (one) {
-      svg += sites(file, frame, 0, 0);
-    } else {
-      const auto& counted = file.triangles[0].counted;
-      svg += sites(file, frame, counted[i], counted[0]) + "<text x=\"" + number(kMargin) + "\" y=\"" +
-             number(frame.height() + 8) + "\" font-size=\"12\">" + std::string(name_of(kDefinitions[i])) +
-             " " + std::to_string(std::popcount(counted[i])) + "</text>";
+           number(row * static_cast<double>(i / columns)) + ")\">" + panels[i].drawing;
+    if (!panels[i].title.empty()) {
+      svg += "<text x=\"" + number(kMargin) + "\" y=\"" + number(frame.height() + 8) +
+             "\" font-size=\"12\">" + panels[i].title + "</text>";
     }
     svg += "</g>\n";
   }

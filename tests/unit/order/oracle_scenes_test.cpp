@@ -1,6 +1,7 @@
 // The scenes kept as data: expected values against the oracle and against the library, and what each is there
 // for.
 #include <thalweg/order/constrained_order.hpp>
+#include <thalweg/order/greedy_triangulation.hpp>
 
 #include <gtest/gtest.h>
 #include <support/oracle/path_by_slabs.hpp>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -28,6 +30,20 @@ int order(const ExpectedTriangle& t, Definition d) {
 }
 
 class Scenes : public testing::TestWithParam<std::string> {};
+
+// Each as its sorted corners, sorted.
+std::vector<Corners> as_set(std::vector<Corners> triangles) {
+  for (Corners& t : triangles) std::sort(t.begin(), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+std::vector<Corners> difference(const std::vector<Corners>& from, const std::vector<Corners>& without) {
+  const std::vector<Corners> a = as_set(from), b = as_set(without);
+  std::vector<Corners> rest;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
+  return rest;
+}
 
 TEST_P(Scenes, OracleGivesTheExpectedAnswers) {
   const SceneFile file = scene(GetParam());
@@ -51,6 +67,9 @@ TEST_P(Scenes, OracleGivesTheExpectedAnswers) {
       EXPECT_EQ(all.useful_orders(definition).at(expected.edge), k)
           << name_of(definition) << ": " << expected.why;
     }
+    if (expected.greedy.empty()) continue;
+    const std::vector<Corners> greedy = greedy_triangles(oracle, expected.edge);
+    EXPECT_EQ(difference(greedy, delaunay_triangles(oracle)), as_set(expected.greedy));
   }
 }
 
@@ -72,6 +91,17 @@ TEST_P(Scenes, LibraryGivesTheExpectedAnswers) {
       }
       EXPECT_EQ(counted, expected.counted[static_cast<std::size_t>(d)]) << name_of(d);
     }
+  }
+  for (const ExpectedEdge& expected : file.edges) {
+    if (expected.greedy.empty()) continue;
+    std::vector<Corners> patch;
+    for (const Triangle& t :
+         greedy_patch(ground, test::vertex(expected.edge.first), test::vertex(expected.edge.second))
+             .triangles) {
+      Corners& corners = patch.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) corners[i] = static_cast<int>(t[i].value());
+    }
+    EXPECT_EQ(as_set(patch), as_set(expected.greedy));
   }
 }
 
@@ -218,6 +248,30 @@ TEST(SceneLaws, Corollary1AndItsFailures) {
     const ExpectedEdge& expected = file.edges.at(0);
     EXPECT_EQ(corollary(file, expected.edge, c.definition), c.corollary) << c.name;
     EXPECT_EQ(expected.useful.at(c.definition), c.useful) << c.name;
+  }
+}
+
+// Figure 6: the first step's triangle is at the edge, each other one on a side of one before, which the hull
+// does not have; the second has a larger order than those at the edge.
+TEST(SceneLaws, Figure6GoesStepByStep) {
+  const SceneFile file = scene("figure-6");
+  const Oracle oracle(file.scene);
+  const ExpectedEdge& edge = file.edges.at(0);
+  ASSERT_EQ(edge.greedy.size(), 4U);
+  std::set<Edge> sides{edge.edge};
+  std::vector<int> orders;
+  for (const Corners& t : edge.greedy) {
+    const std::vector<Edge> own = edges_of({t});
+    EXPECT_TRUE(std::any_of(own.begin(), own.end(), [&](const Edge& e) { return sides.contains(e); }));
+    sides.insert(own.begin(), own.end());
+    orders.push_back(oracle.order(file.scene.counter_clockwise(t), Definition::SeesOpp));
+  }
+  EXPECT_EQ(orders.at(0), 4);
+  EXPECT_EQ(orders.at(1), 5);
+  EXPECT_LE(orders.at(2), 4) << "the other triangle at the edge";
+  const std::string picture = picture_of(file);
+  for (const char* title : {"order 0", "hull of u v", "1: u v s1", "2: u s1 s2", "3: u v e", "4: u e d"}) {
+    EXPECT_NE(picture.find(">" + std::string(title) + "<"), std::string::npos) << title;
   }
 }
 
