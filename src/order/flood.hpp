@@ -27,6 +27,8 @@ class Flood {
   /// Starts at a face of the ground that overlaps the interior of `corners`.
   /// Pre: corners counter-clockwise, a valid triangle.
   void start(const Ground& ground, const Triangle& corners, TriangleId face, Barrier barrier);
+  /// Starts at one more face as well.
+  void start_also(TriangleId face) { enter(face.value()); }
   /// The next vertex inside, or none when the flood has ended, or entered `most_faces` in all. Each comes
   /// once; corners never come.
   std::optional<VertexId> next(std::size_t most_faces = std::numeric_limits<std::size_t>::max());

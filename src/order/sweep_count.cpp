@@ -8,8 +8,10 @@
 //    ground that the flood reached, so that obstacle is an edge that the flood met, or an end of one that was
 //    reached. These are all that the sweep needs. The same for lines from a vertex beyond uv through t.
 // 2. The views from u and v run beside t, over ground that the flood need not reach: they take all that is in
-//    the disc, by a flood through every edge. Where the ground is a polygon they may also run all the way
-//    outside of it, past nothing: those that leave the corner into no fan of it are dropped.
+//    the disc, by a flood through every edge. Where the ground is a polygon it may fall apart in the disc, so
+//    that flood starts from all faces at the corners, in one of which a line of sight begins. Lines may also
+//    run all the way outside of the polygon, past nothing: those that leave the corner into no fan of it are
+//    dropped.
 // 3. SeesTriang: p that sees w counts. So does p that sees u if no edge that blocks leaves u strictly between
 //    the directions of v and p: nothing touches the segment from u to p between its ends, and edges that end
 //    in p shade no more than a ray, so p sees the points of uv near u. The same at v. SeesVtx: the same of
@@ -138,6 +140,11 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
   disc_ = Circumdisc(ground.point(corners[0]), ground.point(corners[1]), ground.point(corners[2]));
   if (needs_all(definition) && !ground.simple_polygons()) {
     all_.start(ground, corners, start, Barrier::None);
+    if (ground.mode() == GroundMode::Polygon) {
+      for (const VertexId corner : corners) {
+        for (const HalfedgeId h : ground.tin().outgoing(corner)) all_.start_also(Tin::triangle_of(h));
+      }
+    }
     while (all_.next()) {
     }
     all_edges_ = distinct(ground.tin(), all_.barriers());
