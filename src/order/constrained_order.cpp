@@ -11,8 +11,10 @@
 //    long, a flood, and a walk to the opposite vertex. It runs through the triangle, for the part of the disc
 //    beyond a side is a cap that can be left only through that side. Sees3vtx and EmptyQuad count some of
 //    what SeesOpp counts.
-// 4. SeesTriang: seeing the opposite vertex is enough; else the gaps of the view decide (sights.cpp).
-//    SeesVtx: also a walk to one of the corners.
+// 4. SeesTriang: where the flood takes long, the light from the sides (side_count.cpp), as far as it does
+// not.
+//    Else seeing the opposite vertex is enough, or the gaps of the view decide (sights.cpp). SeesVtx: also a
+//    walk to one of the corners.
 // 5. ConfEdge: p counts if it sees the opposite vertex, or a vertex r in the cap of another side: from cap to
 // cap a
 //    segment always crosses the interior, and within a cap or to the ends of its side never. r itself is
@@ -221,8 +223,8 @@ bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition d
   return !views.gave_up();
 }
 
-// As count, under SeesTriang or ConfEdge; `counted` holds what the weaker definition counts. False if that
-// takes long.
+// As count, under SeesTriang, SeesVtx or ConfEdge; under the last `counted` holds what SeesOpp counts. False
+// if that takes long.
 bool ConstrainedOrder::count_by_sides(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                                       OrderWorkspace& workspace) const {
   std::vector<VertexId>& counted = workspace.parts_->counted;
@@ -230,8 +232,15 @@ bool ConstrainedOrder::count_by_sides(const Triangle& corners, OrderDefinition d
   const auto all = definition == OrderDefinition::ConfEdge
                        ? sides.conflicting(parts_->ground, corners, counted, limit)
                        : sides.lit(parts_->ground, corners, limit);
-  if (all) counted.assign(all->begin(), all->end());
-  return all.has_value();
+  if (!all) return false;
+  counted.assign(all->begin(), all->end());
+  if (definition == OrderDefinition::SeesVtx) {
+    std::erase_if(counted, [&](VertexId p) {
+      return std::none_of(corners.begin(), corners.end(),
+                          [&](VertexId corner) { return parts_->ground.sees(p, corner); });
+    });
+  }
+  return true;
 }
 
 // As count, by a flood from a face that the triangle overlaps. False if that takes more faces.
@@ -293,6 +302,10 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
       if (same || counted.size() > limit) return;
       if (count_by_sides(corners, definition, limit, workspace)) return;
     }
+  }
+  if (limit == kUnlimited && weaker == OrderDefinition::SeesVtx && ground.any_blocks()) {
+    if (count_by_flood(corners, face, definition, {limit, kFewFaces}, workspace)) return;
+    if (count_by_sides(corners, definition, limit, workspace)) return;
   }
   count_by_flood(corners, face, definition, {limit, kUnlimited}, workspace);
 }

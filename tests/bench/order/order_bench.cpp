@@ -123,6 +123,8 @@ BENCHMARK_CAPTURE(lists, random5_sees_vtx, Scene::Random5, OrderDefinition::Sees
 BENCHMARK_CAPTURE(lists, random5_conf_edge, Scene::Random5, OrderDefinition::ConfEdge)
     ->Apply(sizes_and_orders);
 BENCHMARK_CAPTURE(lists, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)->Apply(sizes_and_orders);
+BENCHMARK_CAPTURE(lists, random5_std, Scene::Random5, OrderDefinition::Std)->Apply(sizes_and_orders);
+BENCHMARK_CAPTURE(lists, comb_sees_opp, Scene::Comb, OrderDefinition::SeesOpp)->Apply(sizes_and_orders);
 
 // As the build numbers its vertices: what is close in the plane is close in memory.
 Tin along_curve(const Tin& tin) {
@@ -132,13 +134,15 @@ Tin along_curve(const Tin& tin) {
   return renumber(tin, number, Progress()).tin;
 }
 
-// The orders of all triangles of a first-order triangulation, every second quadrilateral flipped, and the
-// triangulation of the same vertices and constraint edges: processor time of both, on all threads together.
+// The orders of all triangles of a first-order triangulation, every second quadrilateral flipped (under Std
+// those of SeesOpp), and the triangulation of the same vertices and constraint edges: processor time of both,
+// on all threads together.
 void tin_orders(benchmark::State& state, Scene scene, OrderDefinition definition) {
   const Tin delaunay = along_curve(ground(scene, static_cast<std::size_t>(state.range(0))));
   std::vector<HalfedgeId> flips;
   std::size_t i = 0;
-  for (const Quadrilateral& q : find_quadrilaterals(delaunay, {}, Progress())) {
+  const OrderDefinition flipped = definition == OrderDefinition::Std ? OrderDefinition::SeesOpp : definition;
+  for (const Quadrilateral& q : find_quadrilaterals(delaunay, {.definition = flipped}, Progress())) {
     if (++i % 2 == 0) flips.push_back(q.diagonal);
   }
   const Tin tin = flip_edges(delaunay, flips);
@@ -162,21 +166,22 @@ void tin_orders(benchmark::State& state, Scene scene, OrderDefinition definition
   state.counters["to_triangulation"] = orders_s / triangulation_s;
 }
 
-BENCHMARK_CAPTURE(tin_orders, random5, Scene::Random5, OrderDefinition::SeesOpp)
-    ->RangeMultiplier(10)
-    ->Range(10000, 1000000)
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime();
+void tin_sizes(benchmark::internal::Benchmark* bench) {
+  bench->RangeMultiplier(10)->Range(10000, 1000000)->Unit(benchmark::kMillisecond)->UseManualTime();
+}
+
+BENCHMARK_CAPTURE(tin_orders, random5_pathcon, Scene::Random5, OrderDefinition::Pathcon)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_sees_triang, Scene::Random5, OrderDefinition::SeesTriang)
+    ->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_sees_vtx, Scene::Random5, OrderDefinition::SeesVtx)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_conf_edge, Scene::Random5, OrderDefinition::ConfEdge)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)->Apply(tin_sizes);
 BENCHMARK_CAPTURE(tin_orders, random5_std, Scene::Random5, OrderDefinition::Std)
     ->RangeMultiplier(10)
     ->Range(10000, 100000)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
-BENCHMARK_CAPTURE(tin_orders, lattice, Scene::Lattice, OrderDefinition::SeesOpp)
-    ->RangeMultiplier(10)
-    ->Range(10000, 1000000)
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime();
+BENCHMARK_CAPTURE(tin_orders, lattice, Scene::Lattice, OrderDefinition::SeesOpp)->Apply(tin_sizes);
 BENCHMARK_CAPTURE(tin_orders, comb, Scene::Comb, OrderDefinition::SeesOpp)
     ->Arg(10000)
     ->Unit(benchmark::kMillisecond)
