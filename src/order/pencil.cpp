@@ -65,23 +65,25 @@ std::optional<Pencil::Beside> Pencil::beside(const Side& side, VertexId x, const
 
 // Whether the border may meet what is left of uv of the disc through u, v and a place that sees uv at an
 // angle of that cotangent.
-bool Pencil::reaches(const Border& border, double cotangent) {
+bool Pencil::reaches(const Border& border, double cotangent) const {
   const Position &p = border.from, &q = border.to;
-  const double square = border.square, slack = kWider * (p.size + q.size);
+  const double slack = kWider * (p.size + q.size);
   if (p.across < -slack && q.across < -slack) return false;
   if (!(cotangent < kUnbounded)) return true;
   // The power of the point p + t (q - p) with respect to the circle is a parabola in t.
   const double of_p = p.along - cotangent * p.across, of_q = q.along - cotangent * q.across;
-  const double error = slack * (1 + std::abs(cotangent)) + kWider * square;
+  const double error = slack * (1 + std::abs(cotangent));
   if (std::min(of_p, of_q) <= error) return true;
+  const double square = square_of(border.edge), wider = error + kWider * square;
+  if (std::min(of_p, of_q) <= wider) return true;
   const double slope = of_q - of_p - square;
   if (slope >= 0 || -slope >= 2 * square) return false;
-  return of_p - slope * slope / (4 * square) <= error;
+  return of_p - slope * slope / (4 * square) <= wider;
 }
 
-Pencil::Border Pencil::border(HalfedgeId edge, const Position& from, const Position& to) const {
+double Pencil::square_of(HalfedgeId edge) const {
   const Point2 p = ground_->point(ground_->origin(edge)), q = ground_->point(ground_->target(edge));
-  return {edge, from, to, (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y)};
+  return (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
 }
 
 // Keeps the nearest.
@@ -106,9 +108,10 @@ void Pencil::begin(Side& side) const {
   }
 }
 
-// Goes on over the pending borders that are within the limit; the others are left for later.
-template <class Limit, class Enough>
-bool Pencil::spread(Side& side, const Limit& limit, const Enough& enough) {
+// Goes on over the pending borders that are within the limit, and meets the vertices beyond; the other
+// borders are left for later.
+template <class Limit, class Meet>
+bool Pencil::spread(Side& side, const Limit& limit, const Meet& meet) {
   for (std::size_t next = 0; next < pending_.size(); ++next) {
     const Border over = pending_[next];
     if (!reaches(over, limit())) {
@@ -119,12 +122,10 @@ bool Pencil::spread(Side& side, const Limit& limit, const Enough& enough) {
     if (!entry.valid() || !side.met.insert(Tin::triangle_of(entry).value())) continue;
     const VertexId apex = ground_->apex(entry);
     const Position at = position(side, apex);
-    if (const auto found = beside(side, apex, at)) {
-      insert(*found, side);
-      if (enough()) return false;
-    }
-    pending_.push_back(border(Tin::next(entry), over.from, at));
-    pending_.push_back(border(Tin::previous(entry), at, over.to));
+    const auto found = beside(side, apex, at);
+    if (found && !meet(*found)) return false;
+    pending_.push_back({Tin::next(entry), over.from, at});
+    pending_.push_back({Tin::previous(entry), at, over.to});
   }
   return true;
 }
@@ -133,21 +134,34 @@ bool Pencil::spread(Side& side, const Limit& limit, const Enough& enough) {
 bool Pencil::few_inside(Side& side, const Beside& corner) {
   side.later.clear();
   side.met.clear();
+  side.beyond.clear();
   pending_.clear();
   for (const TriangleId t : passed_) side.met.insert(t.value());
-  for (const HalfedgeId h : side.borders) {
-    const Position from = position(side, ground_->origin(h)), to = position(side, ground_->target(h));
-    pending_.push_back(border(h, from, to));
-  }
-  const auto many = [&] {
-    return side.nearest.size() > most_ && inside(side.to, side.from, corner, side.nearest.back());
+  for (const HalfedgeId h : side.borders)
+    pending_.push_back({h, position(side, ground_->origin(h)), position(side, ground_->target(h))});
+  std::size_t count = 0;
+  const auto note = [&](const Beside& found) {
+    return !inside(side.to, side.from, corner, found) || ++count <= most_;
   };
-  return !many() && spread(
-                        side, [&] { return corner.error - corner.cotangent; }, many);
+  for (const Beside& passed : side.nearest) {
+    if (!note(passed)) return false;
+  }
+  return spread(
+      side, [&] { return corner.error - corner.cotangent; },
+      [&](const Beside& found) {
+        const auto known = [&](const std::vector<Beside>& list) {
+          return std::any_of(list.begin(), list.end(),
+                             [&](const Beside& other) { return other.vertex == found.vertex; });
+        };
+        if (known(side.nearest) || known(side.beyond)) return true;
+        side.beyond.push_back(found);
+        return note(found);
+      });
 }
 
 // Goes on to the `most_` + 1 nearest. The limit was smaller before, and only gets smaller here.
 void Pencil::complete(Side& side) {
+  for (const Beside& found : side.beyond) insert(found, side);
   pending_.swap(side.later);
   side.later.clear();
   spread(
@@ -156,7 +170,10 @@ void Pencil::complete(Side& side) {
         const Beside& last = side.nearest.back();
         return side.nearest.size() > most_ ? last.cotangent + last.error : kUnbounded;
       },
-      [] { return false; });
+      [&](const Beside& found) {
+        insert(found, side);
+        return true;
+      });
 }
 
 // Whether x, beyond the edge between from and to, is inside the circle through its ends and a corner on the
@@ -176,7 +193,7 @@ bool Pencil::pass(VertexId u, VertexId v) {
   for (const HalfedgeId h : ground_->outgoing(u)) {
     const VertexId one = ground_->target(h), other = ground_->apex(h);
     if (one == v || other == v) return false;
-    if (crossed.valid() || orientation(from, ground_->point(one), to) <= 0 ||
+    if (orientation(from, ground_->point(one), to) <= 0 ||
         orientation(from, to, ground_->point(other)) <= 0) {
       continue;
     }
@@ -185,6 +202,7 @@ bool Pencil::pass(VertexId u, VertexId v) {
     right_.borders.push_back(h);
     left_.vertices.push_back(other);
     left_.borders.push_back(Tin::previous(h));
+    break;
   }
   while (crossed.valid()) {
     passed_.push_back(Tin::triangle_of(crossed));

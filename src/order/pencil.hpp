@@ -53,16 +53,16 @@ class Pencil {
   struct Border {
     HalfedgeId edge;
     Position from, to;
-    double square = 0;  ///< of its length
   };
   /// What lies left of the edge, or of its reverse.
   struct Side {
     Point2 from, to;
     std::vector<VertexId> vertices;   ///< of the faces that the edge passes
     std::vector<HalfedgeId> borders;  ///< of these faces
-    std::vector<Beside> nearest;
-    std::vector<Border> later;  ///< beyond the limit so far
-    StampedMap met;             ///< triangles
+    std::vector<Beside> nearest;      ///< so far
+    std::vector<Beside> beyond;       ///< others that were met within the first limit
+    std::vector<Border> later;        ///< beyond it
+    StampedMap met;                   ///< triangles
     void start(Point2 at_from, Point2 at_to) {
       from = at_from;
       to = at_to;
@@ -76,12 +76,12 @@ class Pencil {
   void begin(Side& side) const;
   [[nodiscard]] bool few_inside(Side& side, const Beside& corner);
   void complete(Side& side);
-  template <class Limit, class Enough>
-  bool spread(Side& side, const Limit& limit, const Enough& enough);
+  template <class Limit, class Meet>
+  bool spread(Side& side, const Limit& limit, const Meet& meet);
   void insert(const Beside& fresh, Side& side) const;
   [[nodiscard]] std::optional<Beside> beside(const Side& side, VertexId x, const Position& at) const;
-  [[nodiscard]] Border border(HalfedgeId edge, const Position& from, const Position& to) const;
-  [[nodiscard]] static bool reaches(const Border& border, double cotangent);
+  [[nodiscard]] double square_of(HalfedgeId edge) const;
+  [[nodiscard]] bool reaches(const Border& border, double cotangent) const;
   [[nodiscard]] Position position(const Side& side, VertexId x) const;
   [[nodiscard]] bool nearer(const Side& side, const Beside& one, const Beside& other) const;
   [[nodiscard]] bool inside(Point2 from, Point2 to, const Beside& corner, const Beside& x) const;
