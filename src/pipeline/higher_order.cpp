@@ -19,6 +19,11 @@ namespace thalweg {
 
 namespace {
 
+/// Vertices at order 1 under definitions whose triangles are found by trying all pairs of vertices: 250
+/// random ones take 3 s of processor time, and the time grows with the third power. Flips take the place of
+/// more.
+constexpr std::size_t kMostListed = 500;
+
 /// The ground's triangles, and those of the other diagonals of its first-order quadrilaterals: these have
 /// order 1, for the ends of a Delaunay diagonal are in each other's circle then, and see what they must.
 std::vector<OrderTriangle> triangles_of_flips(const Terrain& terrain, OrderDefinition definition,
@@ -77,7 +82,8 @@ std::optional<FixedFaces> narrow(const FixedFaces& faces, const Terrain& terrain
 
 SurfaceFaces find_surface_faces(const Terrain& terrain, const Tin& surface, const LabellingConfig& labelling,
                                 Progress& progress) {
-  const OrderTriangleOptions options{.definition = labelling.definition, .max_order = labelling.order};
+  OrderTriangleOptions options{.definition = labelling.definition, .max_order = labelling.order};
+  if (labelling.order == 1) options.exhaustive_limit = kMostListed;
   SurfaceFaces found;
   const ConstrainedOrder order(terrain.ground, terrain.mode);
   found.only_flips = labelling.order == 1 && !can_list_order_triangles(order, options);
