@@ -2,8 +2,11 @@
 // extension (GTiff before COG).
 #include "io/gdal_formats.hpp"
 
-#include <cpl_string.h>
+#include <thalweg/base/error.hpp>
 
+#include <cpl_minixml.h>
+
+#include <algorithm>
 #include <filesystem>
 
 namespace thalweg {
@@ -25,6 +28,28 @@ bool has_extension(GDALDriver& driver, const std::string& extension) {
   return extensions.FindString(extension.c_str()) >= 0;
 }
 
+bool names(const CPLXMLNode* node, const char* path, const std::string& name) {
+  const char* value = CPLGetXMLValue(node, path, nullptr);
+  return value != nullptr && EQUAL(value, name.c_str());
+}
+
+/// Whether a list of options, as drivers have it in XML, has this one, and its value where values are listed.
+bool knows(GDALDriver& driver, const char* list_name, const std::string& key, const std::string& value) {
+  const char* xml = driver.GetMetadataItem(list_name);
+  const CPLXMLTreeCloser list(xml == nullptr ? nullptr : CPLParseXMLString(xml));
+  const CPLXMLNode* option = list.get() == nullptr ? nullptr : list->psChild;
+  while (option != nullptr && !names(option, "name", key) && !names(option, "alias", key) &&
+         !names(option, "deprecated_alias", key)) {
+    option = option->psNext;
+  }
+  if (option == nullptr || !names(option, "type", "string-select")) return option != nullptr;
+  for (const CPLXMLNode* choice = option->psChild; choice != nullptr; choice = choice->psNext) {
+    if (!EQUAL(choice->pszValue, "Value")) continue;
+    if (names(choice, "", value) || names(choice, "alias", value)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 GDALDriver* find_output_driver(const std::string& path, const std::string& format, DriverUse use) {
@@ -41,6 +66,33 @@ GDALDriver* find_output_driver(const std::string& path, const std::string& forma
     if (writes(*driver, use) && has_extension(*driver, extension)) return driver;
   }
   return nullptr;
+}
+
+DriverOptions sort_options(GDALDriver& driver, const std::vector<std::string>& options, DriverUse use) {
+  DriverOptions sorted;
+  for (const std::string& option : options) {
+    const std::size_t equals = std::min(option.find('='), option.size());
+    const std::string key = option.substr(0, equals),
+                      value = option.substr(std::min(equals + 1, option.size()));
+    const bool of_dataset = knows(driver, GDAL_DMD_CREATIONOPTIONLIST, key, value);
+    const bool of_layer =
+        use == DriverUse::Vector && knows(driver, GDAL_DS_LAYER_CREATIONOPTIONLIST, key, value);
+    if (of_dataset) sorted.dataset.AddString(option.c_str());
+    if (of_layer) sorted.layer.AddString(option.c_str());
+    if (of_dataset || of_layer) continue;
+    throw Error(ErrorCode::Usage, "'" + option + "' is no creation option K=V of " + driver.GetDescription() +
+                                      ", or no value of one; `" +
+                                      (use == DriverUse::Raster ? "gdalinfo" : "ogrinfo") + " --format " +
+                                      driver.GetDescription() + "` lists them");
+  }
+  return sorted;
+}
+
+bool holds_type(GDALDriver& driver, GDALDataType type) {
+  const char* list = driver.GetMetadataItem(GDAL_DMD_CREATIONDATATYPES);
+  if (list == nullptr) return true;
+  const CPLStringList types(CSLTokenizeString2(list, " ", 0));
+  return types.FindString(GDALGetDataTypeName(type)) >= 0;
 }
 
 }  // namespace thalweg

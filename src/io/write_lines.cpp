@@ -24,18 +24,39 @@ constexpr std::size_t kProgressStep = 1U << 10U;
               path + ": could not be written as lines" + session.reason() + "; choose another format");
 }
 
-void write_features(const std::string& path, const LineLayerView& view, const WriteOptions& options,
+/// Whether the layer has an attribute for the heights.
+bool add_field(const std::string& path, const LineLayerView& view, OGRLayer& layer, const char* format,
+               const GdalSession& session) {
+  if (layer.TestCapability(OLCCreateField) == 0) {  // as in DXF, where z tells the height
+    if (!view.field_wanted) return false;
+    throw Error(ErrorCode::Usage, path + ": " + format + " has no attributes, so none named '" + view.field +
+                                      "' (--field); z holds the heights");
+  }
+  OGRFieldDefn field(view.field.c_str(), OFTReal);
+  if (layer.CreateField(&field) != OGRERR_NONE) fail(path, session);
+  OGRFeatureDefn& fields = *layer.GetLayerDefn();
+  const std::string made = fields.GetFieldDefn(fields.GetFieldCount() - 1)->GetNameRef();
+  if (!EQUAL(made.c_str(), view.field.c_str())) {
+    throw Error(ErrorCode::Usage, path + ": an attribute of " + format + " cannot be named '" + view.field +
+                                      "', but '" + made + "'; choose another name with --field");
+  }
+  return true;
+}
+
+void write_features(const std::string& path, const LineLayerView& view, const DriverOptions& options,
                     GDALDataset& dataset, const GdalSession& session, Progress& progress) {
   std::optional<OGRSpatialReference> reference;
   if (!view.crs_wkt.empty()) reference = parse_reference(view.crs_wkt);
-  CPLStringList creation;
-  for (const std::string& option : options.creation_options) creation.AddString(option.c_str());
   OGRLayer* layer = dataset.CreateLayer(view.layer.c_str(), reference ? &*reference : nullptr,
-                                        wkbLineString25D, creation.List());
+                                        wkbLineString25D, CPLStringList(options.layer).List());
   if (layer == nullptr) fail(path, session);
-  OGRFieldDefn field(view.field.c_str(), OFTReal);
-  const bool has_field = layer->TestCapability(OLCCreateField) != 0;  // not DXF: z tells the height
-  if (has_field && layer->CreateField(&field) != OGRERR_NONE) fail(path, session);
+  const char* format = dataset.GetDriver()->GetDescription();
+  if (layer->GetGeomType() == wkbNone) {
+    throw Error(ErrorCode::Usage, path + ": " + format +
+                                      " holds no lines as it is; choose another format, or for CSV --co "
+                                      "GEOMETRY=AS_WKT");
+  }
+  const bool has_field = add_field(path, view, *layer, format, session);
   const bool in_transaction =
       dataset.TestCapability(ODsCTransactions) != 0 && dataset.StartTransaction() == OGRERR_NONE;
   OGRFeature feature(layer->GetLayerDefn());
@@ -68,12 +89,14 @@ void write_level_lines(const std::string& path, const LineLayerView& view, const
     throw Error(ErrorCode::Usage,
                 path + ": no vector format that this GDAL writes; name one with --of (ogrinfo --formats)");
   }
+  const DriverOptions creation = sort_options(*driver, options.creation_options, DriverUse::Vector);
   progress.start_phase(std::string("write ") + driver->GetDescription());
   const std::string written = pending.add(path, mode);
   const MemoryFolder folder(path);
-  GDALDatasetUniquePtr dataset(driver->Create(folder.path().c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  GDALDatasetUniquePtr dataset(
+      driver->Create(folder.path().c_str(), 0, 0, 0, GDT_Unknown, CPLStringList(creation.dataset).List()));
   if (!dataset) fail(path, session);
-  write_features(path, view, options, *dataset, session, progress);
+  write_features(path, view, creation, *dataset, session, progress);
   dataset.reset();
   if (session.failed()) fail(path, session);
   folder.deliver(written, pending, mode);

@@ -91,14 +91,18 @@ void write_raster(const std::string& path, const RasterView& view, const WriteOp
     throw Error(ErrorCode::Usage,
                 path + ": no raster format that this GDAL writes; name one with --of (gdalinfo --formats)");
   }
+  if (!holds_type(*driver, gdal_type(view.type))) {
+    throw Error(ErrorCode::Usage, path + ": " + driver->GetDescription() + " holds no values of type " +
+                                      GDALGetDataTypeName(gdal_type(view.type)) +
+                                      ", and would change them; choose another format or --ot");
+  }
+  const DriverOptions creation = sort_options(*driver, options.creation_options, DriverUse::Raster);
   progress.start_phase(std::string("write ") + driver->GetDescription());
   const std::string written = pending.add(path, mode);
   const GDALDatasetUniquePtr dataset = make_dataset(path, view, session);
-  CPLStringList creation;
-  for (const std::string& option : options.creation_options) creation.AddString(option.c_str());
   const MemoryFolder folder(path);
-  GDALDatasetUniquePtr copy(driver->CreateCopy(folder.path().c_str(), dataset.get(), FALSE, creation.List(),
-                                               report_progress, &progress));
+  GDALDatasetUniquePtr copy(driver->CreateCopy(folder.path().c_str(), dataset.get(), FALSE,
+                                               creation.dataset.List(), report_progress, &progress));
   progress.check();
   if (!copy) fail(path, session);
   copy.reset();

@@ -186,8 +186,11 @@ void write_contours(const Job& job, const ContourConfig& contours, ConvertResult
     lines.push_back({line.height, std::move(line.points)});
   }
   result.lines = lines.size();
-  const LineLayerView view{
-      .lines = lines, .layer = "contours", .field = contours.field, .crs_wkt = job.source.loaded.crs.wkt};
+  const LineLayerView view{.lines = lines,
+                           .layer = "contours",
+                           .field = contours.field.value_or("elev"),
+                           .field_wanted = contours.field.has_value(),
+                           .crs_wkt = job.source.loaded.crs.wkt};
   write_level_lines(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
 }
 
@@ -214,6 +217,9 @@ bool is_mesh_format(const ConvertConfig& config) {
 
 ConvertResult::Kind kind_of(const ConvertConfig& config) {
   if (config.profile) {
+    if (!config.format.empty() || !config.creation_options.empty()) {
+      throw Error(ErrorCode::Usage, "--profile gives a .csv table, and takes no --of and no --co");
+    }
     if (config.output.ends_with(".csv")) return ConvertResult::Kind::Profile;
     throw Error(ErrorCode::Usage, config.output + ": a profile is a table; give a name that ends in .csv");
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -54,7 +55,8 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
       ->capture_default_str();
   command.add_option("--reference", arguments.reference,
                      "what vertical-error is measured against: a DEM, or points");
-  command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)");
+  command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)")
+      ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()));
 }
 
 namespace {
@@ -129,7 +131,13 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   }
   config.heuristic = parse_method(arguments.method);
   check_heuristic(config, arguments.method);
-  if (arguments.effort > 0) config.effort = arguments.effort;
+  if (arguments.effort > 0) {
+    if (config.criteria.empty()) {
+      throw Error(ErrorCode::Usage,
+                  "--effort limits the search for the best diagonals; --optimize none has none");
+    }
+    config.effort = arguments.effort;
+  }
   const auto needs_reference = [](const Objective& objective) { return objective.needs_reference(); };
   const bool needed = std::any_of(config.criteria.begin(), config.criteria.end(), needs_reference);
   if (needed == arguments.reference.empty()) {

@@ -127,6 +127,9 @@ void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vec
   add_lines(arguments.holes, EdgeKind::Hole, lines);
   add_lines(arguments.lakes, EdgeKind::Lake, lines);
   if (!arguments.bbox.empty()) read.bbox = parse_box("--bbox", arguments.bbox);
+  if (read.geoid.empty() && read.heights_above != HeightsAbove::Ellipsoid) {
+    throw Error(ErrorCode::Usage, "--heights-above serves --geoid, the model between the two; name one");
+  }
 }
 
 }  // namespace thalweg::cli

@@ -159,6 +159,11 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
     ReferencePoints reference;
     if (config.reference) reference = read_reference(*config.reference, crs, plane, progress);
     verify::Claims claims = report ? read_claims(*report) : verify::Claims();
+    const auto against_reference = [](const auto& claim) { return claim.name == "vertical-error"; };
+    if (config.reference && std::none_of(claims.criteria.begin(), claims.criteria.end(), against_reference)) {
+      throw Error(ErrorCode::Usage,
+                  "--reference serves vertical-error, of which no --report claims anything");
+    }
     if (!config.proof_path.empty()) {
       std::ifstream proof(config.proof_path, std::ios::binary);
       if (!proof)

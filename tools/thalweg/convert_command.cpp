@@ -52,7 +52,7 @@ void add_contour_options(CLI::App& command, ConvertArguments& a) {
   command.add_option("--base", a.contours.base, "contours: a height that is a contour's")->needs(contours);
   command.add_option("--field", a.contours.field, "contours: attribute with the height")
       ->needs(contours)
-      ->capture_default_str();
+      ->default_str("elev");
 }
 
 void add_profile_option(CLI::App& command, ConvertArguments& a) {

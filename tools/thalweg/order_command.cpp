@@ -50,8 +50,19 @@ std::size_t parse_max_order(const std::string& text) {
   return order;
 }
 
-void run_order(OrderArguments& a) {
+void run_order(const CLI::App& command, OrderArguments& a) {
   OrderConfig& config = a.config;
+  bool lists = false;
+  for (const char* option : {"--list-triangles", "--list-edges", "--list-conflicts", "--list-quadrilaterals"})
+    lists |= command.count(option) > 0;
+  const bool triangles = !a.triangles.empty();
+  if (command.count("--definition") > 0 && !lists && (triangles || config.census)) {
+    throw Error(ErrorCode::Usage,
+                "--definition is that of lists; --triangle and --census tell of all definitions");
+  }
+  if (command.count("--order") > 0 && !lists && !config.census && triangles) {
+    throw Error(ErrorCode::Usage, "--order is the largest of lists and of --census; ask for one of them");
+  }
   for (const std::string& source : a.points) config.points.push_back(parse_source(source));
   apply_sources(a.sources, config.read, config.lines);
   for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
@@ -105,7 +116,7 @@ void add_order_command(CLI::App& app) {
                "  thalweg order points.csv --triangle 0,1,2 -f json\n"
                "  thalweg order points.csv --valleys 'lines.gpkg|layername=valleys' --order 2 "
                "--list-triangles triangles.csv\n");
-  command->callback([a] { run_order(*a); });
+  command->callback([a, command] { run_order(*command, *a); });
 }
 
 }  // namespace thalweg::cli

@@ -41,14 +41,22 @@ void add_verify_command(CLI::App& app) {
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  const std::size_t before = command->get_options().size();
   add_source_options(*command, a->sources, a->config.read);
   command->add_option("--snap", a->config.snap_m, "as given to build, metres")->check(non_negative_number());
+  const auto all = command->get_options();
+  const std::vector<CLI::Option*> of_sources(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
   add_common_options(*command, a->common);
   add_examples(*command, "  thalweg verify tin.ply --report report.json --points points.csv\n");
-  command->callback([a] {
+  command->callback([a, of_sources] {
     if (!a->reference.empty()) a->config.reference = parse_source(a->reference);
     for (const std::string& file : a->points) a->config.points.push_back(parse_source(file));
     apply_sources(a->sources, a->config.read, a->config.lines);
+    for (const CLI::Option* option : of_sources) {
+      if (option->count() == 0 || !a->config.points.empty() || !a->config.lines.empty()) continue;
+      throw Error(ErrorCode::Usage,
+                  option->get_name() + " says how sources are read; name them with --points");
+    }
     if (!a->config.proof_path.empty() && a->config.report_path.empty()) {
       throw Error(ErrorCode::Usage, "--proof proves what a report claims; give --report too");
     }

@@ -30,7 +30,7 @@ struct RasterConfig {
 struct ContourConfig {
   double interval = 0;
   double base = 0;
-  std::string field = "elev";
+  std::optional<std::string> field;  ///< none: "elev", where the format has attributes
 };
 
 struct ProfileConfig {
