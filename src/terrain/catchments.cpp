@@ -12,6 +12,7 @@
 #include <thalweg/terrain/catchments.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -55,6 +56,7 @@ class Chainer {
     std::sort(segments_.begin(), segments_.end(), [&](const Ranked& a, const Ranked& b) {
       return a.rank == b.rank ? rank(a.to) < rank(b.to) : a.rank < b.rank;
     });
+    list_starts();
     used_.assign(segments.size(), 0);
     place_.assign(segments.size(), kNowhere);
     for (std::size_t start = 0; start < segments_.size(); ++start) {
@@ -88,10 +90,30 @@ class Chainer {
 
   [[nodiscard]] std::uint64_t rank(std::uint32_t point) const { return borders_.rank(graph_, point); }
 
+  [[nodiscard]] std::size_t slot_of(std::uint32_t point) const {
+    constexpr std::uint32_t kSpread = 0x9e3779b9U;  // 2^32 over the golden ratio: neighbours lie far apart
+    return point * kSpread >> shift_;
+  }
+
+  /// Fills `slots_`, a table of the first segment from each point, by number.
+  void list_starts() {
+    shift_ = 32U - static_cast<unsigned>(std::bit_width(2 * segments_.size()));
+    slots_.assign(std::size_t{1} << (32U - shift_), kNowhere);
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
+      if (s > 0 && segments_[s - 1].from == segments_[s].from) continue;
+      std::size_t slot = slot_of(segments_[s].from);
+      while (slots_[slot] != kNowhere) slot = slot + 1 == slots_.size() ? 0 : slot + 1;
+      slots_[slot] = static_cast<std::uint32_t>(s);
+    }
+  }
+
+  /// The end if there is none.
   [[nodiscard]] std::size_t first_from(std::uint32_t point) const {
-    const auto at = std::lower_bound(segments_.begin(), segments_.end(), rank(point),
-                                     [](const Ranked& s, std::uint64_t place) { return s.rank < place; });
-    return static_cast<std::size_t>(at - segments_.begin());
+    std::size_t slot = slot_of(point);
+    while (slots_[slot] != kNowhere && segments_[slots_[slot]].from != point) {
+      slot = slot + 1 == slots_.size() ? 0 : slot + 1;
+    }
+    return slots_[slot] == kNowhere ? segments_.size() : slots_[slot];
   }
 
   // The segment that goes on from `segment`, or the end. `first`: from its end.
@@ -162,6 +184,8 @@ class Chainer {
   const FlowGraph& graph_;
   const CatchmentBorders& borders_;
   std::vector<Ranked> segments_;
+  std::vector<std::uint32_t> slots_;
+  unsigned shift_ = 0;
   std::vector<std::uint8_t> used_;
   std::vector<std::uint32_t> place_;  // in the path, by the first segment from a point
   std::vector<Passed> path_;
