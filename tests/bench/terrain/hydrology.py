@@ -112,6 +112,50 @@ def flooded(heights, valid):
     return filled
 
 
+def read_ply(path):
+    """Positions, and triangles as rows of vertices, of a TIN that Thalweg wrote."""
+    header, _, body = path.read_bytes().partition(b"end_header\n")
+    types = {"double": "<f8", "int": "<i4", "uchar": "u1"}
+    tables, offset = {}, 0
+    elements = []
+    for words in map(str.split, header.decode().splitlines()):
+        if words[0] == "element":
+            elements.append((words[1], int(words[2]), []))
+        elif words[:2] == ["property", "list"]:
+            elements[-1][2].extend([("count", types[words[2]]), (words[4], types[words[3]], 3)])
+        elif words[0] == "property":
+            elements[-1][2].append((words[2], types[words[1]]))
+    for name, count, fields in elements:
+        tables[name] = np.frombuffer(body, np.dtype(fields), count, offset)
+        offset += tables[name].nbytes
+    vertices = tables["vertex"]
+    return np.stack([vertices["x"], vertices["y"], vertices["z"]], 1), tables["face"]["vertex_indices"]
+
+
+def flooded_tin(path):
+    """The same along the edges of a TIN, from its rim: what is to be added to each height."""
+    positions, triangles = read_ply(path)
+    heights = positions[:, 2]
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), 1)
+    edges, triangles_beside = np.unique(sides, axis=0, return_counts=True)
+    around = [[] for _ in heights]
+    for a, b in edges.tolist():
+        around[a].append(b)
+        around[b].append(a)
+    filled = np.full(len(heights), np.inf)
+    rim = np.unique(edges[triangles_beside == 1])
+    filled[rim] = heights[rim]
+    queue = [(heights[v], v) for v in rim.tolist()]
+    heapq.heapify(queue)
+    while queue:
+        z, v = heapq.heappop(queue)
+        for w in around[v]:
+            if filled[w] == np.inf:
+                filled[w] = max(z, heights[w])
+                heapq.heappush(queue, (filled[w], w))
+    return np.where(np.isfinite(filled), filled - heights, 0)
+
+
 class Grass:
     def __init__(self, dem, folder):
         self.place = pathlib.Path(folder) / "location"
@@ -259,6 +303,8 @@ def compare_conditioning(table, thalweg, terrain, grass, tin, scratch):
     filled = grass.raster("filled", scratch / f"{terrain.name}_filled.tif")
     add_grid("r.fill.dir, 8 neighbours", np.where(valid & (filled > -9000), filled - heights, 0))
     add_grid("priority-flood, 8 neighbours", terrain.added)
+    change = flooded_tin(tin)
+    add("priority-flood, along the edges of the TIN of order 1", np.count_nonzero(change), change.sum(), change.max(), 0)
     for steps in STEPS:
         report = drain(thalweg, tin, scratch / "water.gpkg", "--condition", steps)
         done = report["conditioned"]
