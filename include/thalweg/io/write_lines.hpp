@@ -20,8 +20,8 @@ struct LevelLine {
 
 struct LineLayerView {
   std::span<const LevelLine> lines;
-  std::string layer;  ///< name of the layer
-  std::string field;  ///< attribute with the height
+  std::string layer;          ///< name of the layer
+  std::string field;          ///< attribute with the height
   bool field_wanted = false;  ///< a format without attributes is refused
   std::string crs_wkt = {};
 };
