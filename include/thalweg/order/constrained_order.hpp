@@ -64,9 +64,9 @@ class OrderWorkspace {
 /// neighbours in sight; past 4096 faces O(f + n log n).
 /// SeesVtx [n log n]: with a limit up to 64 what all corners see, in the same way, and a look at the side for
 /// each vertex that only its ends see; else as SeesTriang, of those that see a corner.
-/// SeesTriang [n^2]: with a limit the light from each side, a face for each way along which it comes; else,
-/// and past 4096 faces, O(f + n log n) and O(n log n) at most for each vertex that sees a corner only past an
-/// edge that ends there, or none: no less is known to tell if it sees a side.
+/// SeesTriang [n^2]: the light from each side, a face for each way along which it comes; past 4096 faces
+/// O(f + n log n), and O(n log n) at most for each vertex that sees a corner only past an edge that ends
+/// there, or none: no less is known to tell if it sees a side.
 /// ConfEdge [n^2]: with a limit the light from the two shorter sides, and what each vertex there, up to 64 a
 /// side, sees through the longest; else O(f + n log n), and O(n log n) at most for each vertex that does not
 /// see its opposite corner. Limits of 0 and 1 cost SeesTriang what SeesVtx, and ConfEdge what SeesOpp costs.
