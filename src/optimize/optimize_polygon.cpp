@@ -23,6 +23,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -65,7 +67,6 @@ std::vector<VertexId> ring_of(const Tin& polygon) {
 /// A directed edge with the polygon's part that is wanted on its left.
 struct Base {
   std::uint32_t from = 0, to = 0;
-  auto operator<=>(const Base&) const = default;
 };
 
 class PolygonProgram {
@@ -76,21 +77,14 @@ class PolygonProgram {
     ring_ = ring_of(polygon);
     place_.resize(ring_.size());
     for (std::uint32_t i = 0; i < ring_.size(); ++i) place_[ring_[i].index()] = i;
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      for (std::uint32_t side = 0; side < 3; ++side) views_.emplace_back(base_of(3 * t + side), 3 * t + side);
-    }
-    std::sort(views_.begin(), views_.end());
+    sort_views();
     cost_.resize(views_.size());
     for (const OrderTriangle& t : triangles_)
       own_.push_back(measure_.of_triangle ? to_steps(measure_.of_triangle(t.corners)) : 0);
   }
 
   std::optional<PolygonTriangulation> run() {
-    std::vector<std::uint32_t> turn(views_.size());
-    for (std::uint32_t view = 0; view < turn.size(); ++view) turn[view] = view;
-    std::sort(turn.begin(), turn.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(span(base_of(a)), a) < std::pair(span(base_of(b)), b);
-    });
+    const std::vector<std::uint32_t> turn = by_span();
     for (std::size_t i = 0; i < turn.size(); ++i) {
       if (i % 4096 == 0) progress_.check();
       settle(turn[i]);
@@ -104,6 +98,31 @@ class PolygonProgram {
   }
 
  private:
+  void sort_views() {
+    const auto count = static_cast<std::uint32_t>(3 * triangles_.size());
+    first_.assign(ring_.size() + 1, 0);
+    for (std::uint32_t view = 0; view < count; ++view) ++first_[base_of(view).from + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    views_.resize(count);
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t view = 0; view < count; ++view) {
+      const Base base = base_of(view);
+      views_[next[base.from]++] = {base.to, view};
+    }
+    for (std::size_t v = 0; v < ring_.size(); ++v) {
+      std::sort(views_.begin() + first_[v], views_.begin() + first_[v + 1]);
+    }
+  }
+
+  /// The views in the order in which they are taken, by counting.
+  [[nodiscard]] std::vector<std::uint32_t> by_span() const {
+    std::vector<std::uint32_t> next(ring_.size() + 1, 0), turn(views_.size());
+    for (std::uint32_t view = 0; view < turn.size(); ++view) ++next[span(base_of(view)) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (std::uint32_t view = 0; view < turn.size(); ++view) turn[next[span(base_of(view))]++] = view;
+    return turn;
+  }
+
   struct Cost {
     bool possible = false;
     WideSteps value = 0;
@@ -141,8 +160,9 @@ class PolygonProgram {
                                                      std::optional<std::uint32_t> other) const {
     std::optional<std::uint32_t> best;
     WideSteps least = 0;
-    for (auto at = std::lower_bound(views_.begin(), views_.end(), std::pair(base, std::uint32_t{0}));
-         at != views_.end() && at->first == base; ++at) {
+    const auto row = std::span(views_).subspan(first_[base.from], first_[base.from + 1] - first_[base.from]);
+    for (auto at = std::lower_bound(row.begin(), row.end(), std::pair(base.to, std::uint32_t{0}));
+         at != row.end() && at->first == base.to; ++at) {
       const std::uint32_t view = at->second;
       if (!cost_[view].possible) continue;
       const WideSteps value = other ? with_neighbour(view, *other) : cost_[view].value;
@@ -198,11 +218,13 @@ class PolygonProgram {
   std::vector<OrderTriangle> triangles_;
   const PolygonMeasure& measure_;
   const Progress& progress_;
-  std::vector<VertexId> ring_;                         ///< counter-clockwise
-  std::vector<std::uint32_t> place_;                   ///< by vertex: in the ring
-  std::vector<std::pair<Base, std::uint32_t>> views_;  ///< ascending
-  std::vector<std::int64_t> own_;                      ///< by triangle
-  std::vector<Cost> cost_;                             ///< by view: 3 * triangle + side
+  std::vector<VertexId> ring_;        ///< counter-clockwise
+  std::vector<std::uint32_t> place_;  ///< by vertex: in the ring
+  std::vector<std::uint32_t> first_;  ///< by vertex: its first view
+  /// By the vertex at which the base starts: the one at which it ends, and the view; ascending.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> views_;
+  std::vector<std::int64_t> own_;  ///< by triangle
+  std::vector<Cost> cost_;         ///< by view: 3 * triangle + side
 };
 
 }  // namespace

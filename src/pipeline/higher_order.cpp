@@ -20,8 +20,8 @@ namespace thalweg {
 namespace {
 
 /// Vertices at order 1 under definitions whose triangles are found by trying all pairs of vertices: 250
-/// random ones take 3 s of processor time, and the time grows with the third power. Flips take the place of
-/// more.
+/// random ones take 20 s of processor time, 250 take 3 s, and the time grows with the third power. Flips take
+/// the place of more.
 constexpr std::size_t kMostListed = 500;
 
 /// The ground's triangles, and those of the other diagonals of its first-order quadrilaterals: these have

@@ -50,9 +50,10 @@ struct PolygonTriangulation {
 /// Pre: `polygon` is the constrained Delaunay triangulation of a simple polygon, as build_ground gives it in
 /// mode Polygon. Throws: Error{Unsupported} if it has a hole, a vertex inside, or a rim that meets itself;
 /// {SizeLimit} as find_order_triangles; {Cancelled}.
-/// Complexity: with t triangles of order at most k, t of which each diagonal has d at most: finding them;
-/// then t log t, and with terms of neighbours t d. Where t is k^2 n and d is k, as where nothing blocks, that
-/// is k^2 n log (kn), the bound of Silveira and van Kreveld (2009), and k^3 n with neighbours.
+/// Complexity: finding the triangles of order at most k; then, if there are t of them, at most d at each
+/// diagonal and v at each vertex, t log v, and with terms of neighbours t (d + log v). Where t is k^2 n, d is
+/// k and v is k^2, as where nothing blocks, that is k^2 n log k, the bound of Silveira and van Kreveld
+/// (2009), and k^3 n with neighbours.
 std::optional<PolygonTriangulation> optimize_polygon(const Tin& polygon,
                                                      const PolygonOptimizeOptions& options,
                                                      Progress& progress);
