@@ -196,6 +196,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
                   .number = std::move(ground.number)};
   if (plane.projected()) terrain.continuous = plane.to_lonlat(terrain.written);
   terrain.mode = ground.mode;
+  Survey valleys = drawn_valleys(survey.survey, config.condition);
   survey = {};
   terrain.ground = std::move(ground.tin);
   ground = {};
@@ -214,10 +215,10 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
     report.timings_s.simplify = watch.lap();
   }
 
-  finish_run(
-      std::move(terrain),
-      {plane, read.crs, config.labelling, config.condition, output, outputs, watch, std::move(outlets)},
-      built, progress);
+  finish_run(std::move(terrain),
+             {plane, read.crs, config.labelling, config.condition, output, outputs, watch, std::move(outlets),
+              std::move(valleys)},
+             built, progress);
   return built;
 }
 

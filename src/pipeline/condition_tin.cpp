@@ -1,6 +1,8 @@
 // Metres to the TIN's unit and back around `condition_heights`.
 #include "pipeline/condition_tin.hpp"
 
+#include "delaunay/provenance.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/terrain/pits.hpp>
@@ -11,10 +13,39 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <string>
 #include <utility>
 
 namespace thalweg {
+
+namespace {
+
+double squared_distance(Point2 p, Point2 a, Point2 b) {
+  const double x = b.x - a.x, y = b.y - a.y, squared = x * x + y * y;
+  const double share = squared > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / squared, 0.0, 1.0) : 0;
+  const double dx = a.x + share * x - p.x, dy = a.y + share * y - p.y;
+  return dx * dx + dy * dy;
+}
+
+/// Which of the lines is nearest to the point, the first of several. Pre: there are lines.
+std::size_t nearest_line(const Survey& survey, Point2 p) {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t line = 0; line < survey.lines.size(); ++line) {
+    const std::vector<Point2>& xy = survey.lines[line].xy;
+    for (std::size_t i = 0; i + 1 < xy.size(); ++i) {
+      const double distance = squared_distance(p, xy[i], xy[i + 1]);
+      if (!(distance < least)) continue;
+      least = distance;
+      nearest = line;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
 
 std::string condition_word(ConditionStep step) {
   switch (step) {
@@ -100,13 +131,22 @@ std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, st
   return list;
 }
 
-std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes,
-                                                double metres_per_unit) {
+Survey drawn_valleys(const Survey& survey, const ConditionConfig& config) {
+  Survey valleys;
+  if (!config.makes_valleys_monotone()) return valleys;
+  valleys.sources = survey.sources;
+  std::copy_if(survey.lines.begin(), survey.lines.end(), std::back_inserter(valleys.lines),
+               [](const SurveyLine& line) { return has(line.kind, EdgeKind::Valley); });
+  return valleys;
+}
+
+std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes, const Plane& plane,
+                                                const Survey& drawn) {
   // More than errors of heights explain: on five DEMs, two of them from radar, 16 m is the most.
   constexpr double kLargeMetres = 20;
   const auto size = [&](const ReportChange& change) {
     const bool counts = change.step == condition_word(ConditionStep::MonotoneValleys);
-    return counts ? std::abs(change.after - change.before) * metres_per_unit : 0;
+    return counts ? std::abs(change.after - change.before) * plane.vertical_metres_per_unit() : 0;
   };
   const auto large = std::count_if(changes.begin(), changes.end(),
                                    [&](const ReportChange& change) { return size(change) > kLargeMetres; });
@@ -114,13 +154,17 @@ std::optional<std::string> note_of_large_change(std::span<const ReportChange> ch
   const ReportChange& most =
       *std::max_element(changes.begin(), changes.end(),
                         [&](const ReportChange& a, const ReportChange& b) { return size(a) < size(b); });
+  const std::string line =
+      drawn.lines.empty()
+          ? ""
+          : ", on " + describe_line(drawn, nearest_line(drawn, plane.to_plane(Point2{most.x, most.y})));
   return fmt::format(
       "monotone-valleys changes {} {} of drawn valleys by more than {} m, the largest by {:.2f} m: "
-      "vertex {} at {:.10g}, {:.10g}, from {:.10g} to {:.10g}; if a line crosses a ridge there or a height "
+      "vertex {} at {:.10g}, {:.10g}, from {:.10g} to {:.10g}{}; if a line crosses a ridge there or a height "
       "is wrong, mend "
       "that, or limit changes with --condition-max",
       large, large == 1 ? "height" : "heights", kLargeMetres, size(most), most.vertex, most.x, most.y,
-      most.before, most.after);
+      most.before, most.after, line);
 }
 
 FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& plane) {

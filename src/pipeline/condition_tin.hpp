@@ -6,6 +6,7 @@
 
 #include <thalweg/io/pending_outputs.hpp>
 #include <thalweg/io/write_features.hpp>
+#include <thalweg/mesh/survey.hpp>
 #include <thalweg/pipeline/build.hpp>
 #include <thalweg/pipeline/condition.hpp>
 #include <thalweg/pipeline/drain.hpp>
@@ -37,10 +38,13 @@ void check_condition(const ConditionConfig& config, const LabellingConfig& label
 /// there; no numbers: the same.
 std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, std::span<const Point2> written,
                                        std::span<const VertexId> number);
+/// The valleys of a survey, if they are to be made monotone: for the note below.
+Survey drawn_valleys(const Survey& survey, const ConditionConfig& config);
 /// A note if monotone valleys took a height far from where it was, with the place: more likely a line or a
-/// height is wrong. Heights in the TIN's unit.
-std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes,
-                                                double metres_per_unit);
+/// height is wrong. Heights in the TIN's unit. `drawn`: valleys in the plane, of which that at the place is
+/// named; none: none is.
+std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes, const Plane& plane,
+                                                const Survey& drawn);
 /// Points with their new height; heights in the TIN's unit.
 FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& plane);
 

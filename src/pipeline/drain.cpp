@@ -197,7 +197,7 @@ std::vector<HeightChange> condition(LoadedTin& loaded, std::span<const VertexId>
 FeatureLayer changed_heights(const LoadedTin& loaded, std::span<const HeightChange> changes,
                              DrainReport& report) {
   const std::vector<ReportChange> list = list_changes(changes, loaded.written_points(), {});
-  const auto note = note_of_large_change(list, loaded.plane.vertical_metres_per_unit());
+  const auto note = note_of_large_change(list, loaded.plane, {});
   if (note) report.notes.push_back(*note);
   return change_layer(list, loaded.plane);
 }

@@ -123,7 +123,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
 
   finish_run(
       std::move(terrain),
-      {plane, crs, config.labelling, config.condition, config.output, outputs, watch, std::move(outlets)},
+      {plane, crs, config.labelling, config.condition, config.output, outputs, watch, std::move(outlets), {}},
       built, progress);
   return built;
 }

@@ -263,7 +263,7 @@ void describe_changes(const Labelled& labelled, const Terrain& terrain, const Ru
   for (const ConditionStep step : run.condition.steps) {
     report.conditioned->steps.push_back(condition_word(step));
   }
-  const auto note = note_of_large_change(report.conditioned->changes, run.plane.vertical_metres_per_unit());
+  const auto note = note_of_large_change(report.conditioned->changes, run.plane, run.drawn_valleys);
   if (note) report.notes.push_back(*note);
 }
 

@@ -5,6 +5,7 @@
 #include "pipeline/plane.hpp"
 
 #include <thalweg/io/pending_outputs.hpp>
+#include <thalweg/mesh/survey.hpp>
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
 #include <thalweg/pipeline/build.hpp>
@@ -65,6 +66,7 @@ struct RunContext {
   RunOutputs& outputs;
   Stopwatch& watch;
   std::vector<Point2> outlets;  ///< of conditioning, as written
+  Survey drawn_valleys;         ///< those to be made monotone, in the plane, where they are known
 };
 
 /// Finds the quadrilaterals, optimises, checks, writes all outputs, and fills the rest of what is built; its

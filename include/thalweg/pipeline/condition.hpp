@@ -24,6 +24,9 @@ struct ConditionConfig {
     return std::any_of(steps.begin(), steps.end(),
                        [](ConditionStep step) { return step != ConditionStep::MonotoneValleys; });
   }
+  [[nodiscard]] bool makes_valleys_monotone() const {
+    return std::find(steps.begin(), steps.end(), ConditionStep::MonotoneValleys) != steps.end();
+  }
 };
 
 /// What conditioning changed.
