@@ -13,6 +13,33 @@
 
 namespace thalweg::cli {
 
+namespace {
+
+/// Throws: Error{Usage} if one of these options was given.
+void refuse_given(const std::vector<CLI::Option*>& of_sources) {
+  for (const CLI::Option* option : of_sources) {
+    if (option->count() == 0) continue;
+    throw Error(ErrorCode::Usage, option->get_name() + " says how sources are read; name them with --points");
+  }
+}
+
+/// Throws: Error{InvalidTin} if something does not hold.
+void tell(const VerifyResult& result, const Common& common) {
+  if (common.format == Format::Json) {
+    print(to_json(result));
+  } else if (common.quiet == 0) {
+    print(to_text(result));
+  }
+  if (result.holds()) return;
+  const auto broken =
+      std::find_if(result.findings.begin(), result.findings.end(),
+                   [](const verify::Finding& f) { return f.verdict == verify::Verdict::Broken; });
+  throw Error(ErrorCode::InvalidTin,
+              result.path + " does not hold what it claims: " + broken->claim + ": " + broken->detail);
+}
+
+}  // namespace
+
 void add_verify_command(CLI::App& app) {
   struct Arguments {
     VerifyConfig config;
@@ -52,27 +79,13 @@ void add_verify_command(CLI::App& app) {
     if (!a->reference.empty()) a->config.reference = parse_source(a->reference);
     for (const std::string& file : a->points) a->config.points.push_back(parse_source(file));
     apply_sources(a->sources, a->config.read, a->config.lines);
-    for (const CLI::Option* option : of_sources) {
-      if (option->count() == 0 || !a->config.points.empty() || !a->config.lines.empty()) continue;
-      throw Error(ErrorCode::Usage,
-                  option->get_name() + " says how sources are read; name them with --points");
-    }
+    if (a->config.points.empty() && a->config.lines.empty()) refuse_given(of_sources);
     if (!a->config.proof_path.empty() && a->config.report_path.empty()) {
       throw Error(ErrorCode::Usage, "--proof proves what a report claims; give --report too");
     }
     if (!a->definition.empty()) a->config.definition = parse_definition(a->definition);
     const VerifyResult result = verify_tin(a->config, progress_of(a->common));
-    if (a->common.format == Format::Json) {
-      print(to_json(result));
-    } else if (a->common.quiet == 0) {
-      print(to_text(result));
-    }
-    if (result.holds()) return;
-    const auto broken =
-        std::find_if(result.findings.begin(), result.findings.end(),
-                     [](const verify::Finding& f) { return f.verdict == verify::Verdict::Broken; });
-    throw Error(ErrorCode::InvalidTin,
-                result.path + " does not hold what it claims: " + broken->claim + ": " + broken->detail);
+    tell(result, a->common);
   });
 }
 
