@@ -158,6 +158,13 @@ GroundOptions ground_options(const BuildConfig& config, const Plane& plane) {
   return options;
 }
 
+/// At written coordinates.
+std::vector<Conflict> conflicts_of(std::vector<Conflict> conflicts, const Plane& plane) {
+  if (!plane.projected()) return conflicts;
+  for (Conflict& conflict : conflicts) conflict.xy = plane.to_written(conflict.xy);
+  return conflicts;
+}
+
 BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const OutputConfig& output,
                  Progress& progress) {
   Stopwatch watch;
@@ -186,11 +193,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   if (plane.projected()) survey.survey.to_source = [&back = plane](Point2 p) { return back.to_written(p); };
   Ground ground = build_ground(survey.survey, ground_options(config, plane), progress);
   describe_input(read, ground, report);
-  report.conflicts = std::move(ground.conflicts);
-  if (plane.projected()) {
-    for (Conflict& conflict : report.conflicts) conflict.xy = plane.to_written(conflict.xy);
-  }
-
+  report.conflicts = conflicts_of(std::move(ground.conflicts), plane);
   Terrain terrain{.written = written_of(ground, survey, plane),
                   .vertex_source = sources_of(ground),
                   .number = std::move(ground.number)};

@@ -59,6 +59,12 @@ std::vector<std::pair<VertexId, VertexId>> outline_of(const Tin& tin) {
   return outline;
 }
 
+bool bounds(EdgeKind kind) {
+  return has(kind, EdgeKind::Boundary | EdgeKind::Hole);
+}
+
+/// Where the outline is not all edges of the Delaunay triangulation, or some of it is drawn, it bounds the
+/// ground, and all of it is constrained.
 Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points, Progress& progress) {
   const Tin given(plane_points, file.heights, file.triangles, file.constraints);
   if (const auto violations = validate(given, {}); !violations.empty()) {
@@ -70,19 +76,19 @@ Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points,
   std::vector<ConstraintEdge> constraints = given.constraint_edges();
   Terrain terrain;
   terrain.ground = triangulate(plane_points, file.heights, constraints, progress);
-  const std::size_t before = constraints.size();
-  for (const auto& [a, b] : outline) {
-    if (!terrain.ground.find_halfedge(a, b).valid() && !terrain.ground.find_halfedge(b, a).valid()) {
-      constraints.push_back({a, b, EdgeKind::Boundary});
+  const bool bounded = std::any_of(constraints.begin(), constraints.end(),
+                                   [](const ConstraintEdge& edge) { return bounds(edge.kind); }) ||
+                       std::any_of(outline.begin(), outline.end(), [&](const auto& edge) {
+                         return !terrain.ground.find_halfedge(edge.first, edge.second).valid() &&
+                                !terrain.ground.find_halfedge(edge.second, edge.first).valid();
+                       });
+  if (bounded) {
+    for (const auto& [a, b] : outline) {
+      if (!bounds(given.kind(given.find_halfedge(a, b)))) constraints.push_back({a, b, EdgeKind::Boundary});
     }
-  }
-  if (constraints.size() > before) {
     terrain.ground = triangulate(std::move(plane_points), file.heights, constraints, progress);
   }
   terrain.keep = inside_outline(terrain.ground, outline);
-  const bool bounded = std::any_of(constraints.begin(), constraints.end(), [](const ConstraintEdge& edge) {
-    return has(edge.kind, EdgeKind::Boundary);
-  });
   if (bounded) {
     terrain.mode = GroundMode::Polygon;
     terrain.ground = keep_triangles(terrain.ground, terrain.keep);
