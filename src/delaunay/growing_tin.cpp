@@ -3,9 +3,8 @@
 // Based on: Garland, Heckbert, Fast polygonal approximation of terrains and height fields, 1995, for the
 // queue of triangles by their worst points; the constrained cavity is as in incremental.cpp.
 //
-// 1. Each cell knows the worst of the vertices that wait in it. A queue holds the worst of each cell; an
-// entry
-//    whose cell has changed since is skipped when it comes up.
+// 1. Each cell knows the worst of the vertices that wait in it. A queue holds the worst of each cell; what
+//    was put there before its cell changed is skipped when it comes up.
 // 2. The cavity of a vertex: the cells whose circles hold it, reached without crossing a constraint edge or
 //    the outline. It is star-shaped about the vertex: across a side that the vertex sees lies a cell whose
 //    circle holds the vertex, so the vertex sees its third corner through that side. A vertex on the outline

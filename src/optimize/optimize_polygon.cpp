@@ -3,16 +3,15 @@
 // Based on: Silveira, van Kreveld, Optimal higher order Delaunay triangulations of polygons, 2009. An edge of
 // a triangulation parts a simple polygon, and what is best beyond it does not depend on what is on this side,
 // but for the terms of the two triangles at the edge.
-// 1. Candidates are the triangles of order at most k, each seen from each of its sides: a *view* is a
-// triangle
-//    and the side that is its base. Its cost is its own term and, for each of the two other sides that is no
-//    edge of the polygon, the least cost of a view that has this side as its base from beyond, with the term
-//    of the two triangles. Sums and largest values of parts never get worse by a part that gets better.
-// 2. A view needs those beyond its other sides, which cut off fewer vertices than its base does: views are
-// taken
-//    in that order. One edge of the polygon is the base of the whole.
-// 3. Of equal costs the view counts whose apex comes first by (x, y), and the whole stands on the edge at the
-//    first vertex: nothing depends on ids. That departs from the paper, which leaves ties open.
+// 1. Candidates are the triangles of order at most k, each seen from each of its sides: a *view* is one
+//    of them and the side that is its base. Its cost is its own term and, for each of the two other
+//    sides that is no edge of the polygon, the least cost of a view that has this side as its base from
+//    beyond, with the term of the two triangles. Sums and largest values of parts never get worse by a
+//    part that gets better.
+// 2. A view needs those beyond its other sides, which cut off fewer vertices than its base does: that is
+//    the order in which views are taken. One edge of the polygon is the base of the whole.
+// 3. Of equal costs the view counts whose apex comes first by (x, y), and the whole stands on the edge
+//    at the first vertex: nothing depends on ids. That departs from the paper, which leaves ties open.
 #include "optimize/face_terms.hpp"
 #include "optimize/sums.hpp"
 
