@@ -29,11 +29,12 @@ constexpr std::uint32_t cell_of(std::uint32_t side) {
 constexpr std::uint32_t corner_of(std::uint32_t side) {
   return side & 3U;
 }
+// Two bits a corner: a comparison would become a branch that no processor can foresee.
 constexpr std::uint32_t after(std::uint32_t corner) {
-  return corner == 2 ? 0 : corner + 1;
+  return 0b00'10'01U >> (2 * corner) & 3U;
 }
 constexpr std::uint32_t before(std::uint32_t corner) {
-  return corner == 0 ? 2 : corner - 1;
+  return 0b01'00'10U >> (2 * corner) & 3U;
 }
 
 /// Vertices of a triangulation: `positions` ends with the vertex at infinity, whose coordinates are NaN, so
@@ -47,17 +48,15 @@ struct Positions {
 /// Whether p lies beyond the hull edge of a ghost cell, or on the open edge itself.
 bool beyond_hull_edge(const Cell& ghost, const Positions& at, Point2 p);
 
+/// As `in_conflict`, where its filter does not decide.
+bool in_conflict_unsure(const Cell& cell, const Positions& at, Point2 p);
+
 /// Whether p lies inside the circle of a cell under the tie rule; of a ghost: beyond its hull edge.
+/// Without a branch on the answer, which no processor can foresee.
 inline bool in_conflict(const Cell& cell, const Positions& at, Point2 p) {
-  const Point2 a = at[cell.vertex[0]];
-  const Point2 b = at[cell.vertex[1]];
-  const Point2 c = at[cell.vertex[2]];
-  if (const int sign = in_circle_filtered(a, b, c, p); sign != kUndecided) return sign > 0;
-  const std::uint32_t infinity = at.infinity();
-  if (cell.vertex[0] == infinity || cell.vertex[1] == infinity || cell.vertex[2] == infinity) {
-    return beyond_hull_edge(cell, at, p);
-  }
-  return in_circle_perturbed(a, b, c, p);
+  const RoundedDeterminant inside =
+      in_circle_rounded(at[cell.vertex[0]], at[cell.vertex[1]], at[cell.vertex[2]], p);
+  return inside.sure() ? inside.value > 0 : in_conflict_unsure(cell, at, p);
 }
 
 inline void link(std::span<Cell> cells, std::uint32_t side, std::uint32_t other) {

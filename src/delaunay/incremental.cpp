@@ -37,10 +37,19 @@ bool beyond_hull_edge(const Cell& ghost, const Positions& at, Point2 p) {
   return from.x != to.x ? (from.x < p.x) == (p.x < to.x) : (from.y < p.y) == (p.y < to.y);
 }
 
+bool in_conflict_unsure(const Cell& cell, const Positions& at, Point2 p) {
+  const auto [a, b, c] = cell.vertex;
+  const std::uint32_t infinity = at.infinity();
+  if (a == infinity || b == infinity || c == infinity) return beyond_hull_edge(cell, at, p);
+  return in_circle_perturbed_exact(at[a], at[b], at[c], p);
+}
+
 namespace {
 
 // A few milliseconds of work.
 constexpr std::size_t kStepsBetweenChecks = 2048;
+
+constexpr std::size_t kRoom = 64;
 
 class Insertion {
  public:
@@ -52,14 +61,21 @@ class Insertion {
 
  private:
   [[nodiscard]] std::uint32_t locate(Point2 p) const;
+  void grow_room() {
+    const std::size_t room = 2 * cavity_.size();
+    pending_.resize(room);
+    cavity_.resize(room);
+    rim_.resize(room);
+  }
 
   Positions at_;
   std::span<Cell> cells_;
   std::uint32_t next_cell_;
   std::uint32_t last_ = 0;              ///< a finite cell near the next vertex, as is hoped
-  std::vector<std::uint32_t> pending_;  ///< sides of cells to be looked at, the next one last
-  std::vector<std::uint32_t> cavity_;   ///< cells in conflict
-  std::vector<std::uint32_t> rim_;      ///< sides, seen from outside of the cavity
+  // Room for the search of a cavity: of each there are at most two more than cells in conflict.
+  std::vector<std::uint64_t> pending_ = std::vector<std::uint64_t>(kRoom);  ///< twice a side of a cell that is to be visited, and one more if that is in conflict
+  std::vector<std::uint32_t> cavity_ = std::vector<std::uint32_t>(kRoom);  ///< cells in conflict
+  std::vector<std::uint32_t> rim_ = std::vector<std::uint32_t>(kRoom);     ///< sides, seen from outside of the cavity
 };
 
 // Pre: corners are counter-clockwise. The three ghosts lie beyond the sides.
@@ -78,56 +94,62 @@ void Insertion::start(std::array<std::uint32_t, 3> corners) {
   last_ = first;
 }
 
+// Whether p lies to the right of ab; the sign alone is asked for without a branch, as in `in_conflict`.
+inline bool right_of(const Point2& a, const Point2& b, const Point2& p) {
+  const RoundedDeterminant turn = orientation_rounded(a, b, p);
+  return turn.sure() ? turn.value < 0 : orientation_exact(a, b, p) < 0;
+}
+
 std::uint32_t Insertion::locate(Point2 p) const {
   const std::uint32_t infinity = at_.infinity();
-  std::uint32_t cell = last_;
-  std::uint32_t entered = 3;  // the corner opposite to the side by which the walk came in
+  const Cell& first = cells_[last_];
+  std::uint32_t exit = 0;
+  while (!right_of(at_[first.vertex[after(exit)]], at_[first.vertex[before(exit)]], p)) {
+    if (++exit == 3) return last_;
+  }
+  std::uint32_t side = first.neighbour[exit];
   while (true) {
-    const Cell& here = cells_[cell];
-    std::uint32_t across = 3;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      if (i == entered) continue;
-      if (orientation(at_[here.vertex[after(i)]], at_[here.vertex[before(i)]], p) < 0) {
-        across = i;
-        break;
-      }
-    }
-    if (across == 3) return cell;
-    const std::uint32_t side = here.neighbour[across];
-    cell = cell_of(side);
-    entered = corner_of(side);
-    const Cell& beyond = cells_[cell];
-    if (beyond.vertex[entered] == infinity) return cell;
+    const Cell& here = cells_[cell_of(side)];
+    const std::uint32_t corner = corner_of(side);
+    if (here.vertex[corner] == infinity) return cell_of(side);
+    const Point2& apex = at_[here.vertex[corner]];
+    const bool past_one = right_of(at_[here.vertex[before(corner)]], apex, p);
+    const bool past_other = right_of(apex, at_[here.vertex[after(corner)]], p);
+    if (!past_one && !past_other) return cell_of(side);
+    side = here.neighbour[past_one ? after(corner) : before(corner)];
   }
 }
 
 void Insertion::insert(std::uint32_t v) {
   const Point2 p = at_[v];
   const std::uint32_t start = locate(p);
-  cavity_.clear();
-  rim_.clear();
-  pending_.clear();
-  cavity_.push_back(start);
-  for (std::uint32_t i = 3; i-- > 0;) pending_.push_back(cells_[start].neighbour[i]);
-  while (!pending_.empty()) {
-    const std::uint32_t side = pending_.back();
-    pending_.pop_back();
-    const Cell& cell = cells_[cell_of(side)];
-    if (!in_conflict(cell, at_, p)) {
-      rim_.push_back(side);
+  const auto look_at = [&](std::uint32_t side) {
+    return 2 * std::uint64_t{side} + (in_conflict(cells_[cell_of(side)], at_, p) ? 1 : 0);
+  };
+  std::size_t cavity = 0, rim = 0, pending = 0;
+  cavity_[cavity++] = start;
+  for (std::uint32_t i = 3; i-- > 0;) pending_[pending++] = look_at(cells_[start].neighbour[i]);
+  while (pending > 0) {
+    const std::uint64_t next = pending_[--pending];
+    const auto side = static_cast<std::uint32_t>(next / 2);
+    if (next % 2 == 0) {
+      rim_[rim++] = side;
       continue;
     }
-    cavity_.push_back(cell_of(side));
+    if (cavity + 3 == cavity_.size()) grow_room();
+    const Cell& cell = cells_[cell_of(side)];
     const std::uint32_t corner = corner_of(side);
-    pending_.push_back(cell.neighbour[before(corner)]);
-    pending_.push_back(cell.neighbour[after(corner)]);
+    cavity_[cavity++] = cell_of(side);
+    pending_[pending] = look_at(cell.neighbour[before(corner)]);
+    pending_[pending + 1] = look_at(cell.neighbour[after(corner)]);
+    pending += 2;
   }
-  THALWEG_ASSERT(rim_.size() == cavity_.size() + 2);
-  cavity_.push_back(next_cell_++);
-  cavity_.push_back(next_cell_++);
+  THALWEG_ASSERT(rim == cavity + 2);
+  cavity_[cavity++] = next_cell_++;
+  cavity_[cavity++] = next_cell_++;
 
   const std::uint32_t infinity = at_.infinity();
-  const std::size_t count = rim_.size();
+  const std::size_t count = rim;
   std::uint32_t previous = cavity_[count - 1];
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t outer = rim_[i];

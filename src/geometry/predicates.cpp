@@ -7,6 +7,7 @@
 // 2. The tie rule: sort the four points; the largest that is one of a, b, c, and whose replacement by d
 // leaves
 //    a proper triangle, decides by that triangle's orientation; if d comes first, it is outside.
+//    Points are handed on by reference: a copy of what was just stored in parts waits for all of them.
 // 3. Segment against open disc: the condition is written without division as signs of polynomials in
 //    coordinates relative to a, evaluated in intervals first and in rationals where those do not decide.
 #include <thalweg/geometry/predicates.hpp>
@@ -74,14 +75,14 @@ bool exact_difference(double a, double b, double difference) {
 constexpr int kBits = 61;
 template <std::size_t Count>
 std::optional<std::array<std::int64_t, Count>> integer_differences(
-    const std::array<Point2, Count / 2>& points, Point2 origin) {
+    const std::array<const Point2*, Count / 2>& points, const Point2& origin) {
   std::array<double, Count> exact;
   double largest = 0;
   for (std::size_t i = 0; i < Count / 2; ++i) {
-    exact[2 * i] = points[i].x - origin.x;
-    exact[2 * i + 1] = points[i].y - origin.y;
-    if (!exact_difference(points[i].x, origin.x, exact[2 * i]) ||
-        !exact_difference(points[i].y, origin.y, exact[2 * i + 1])) {
+    exact[2 * i] = points[i]->x - origin.x;
+    exact[2 * i + 1] = points[i]->y - origin.y;
+    if (!exact_difference(points[i]->x, origin.x, exact[2 * i]) ||
+        !exact_difference(points[i]->y, origin.y, exact[2 * i + 1])) {
       return std::nullopt;
     }
     largest = std::max({largest, std::abs(exact[2 * i]), std::abs(exact[2 * i + 1])});
@@ -150,8 +151,8 @@ std::array<std::int64_t, 6> shifted(std::array<std::int64_t, 6> values, int zero
   return values;
 }
 
-std::optional<int> orientation_in_integers(Point2 a, Point2 b, Point2 c) {
-  const auto d = integer_differences<4>({a, b}, c);
+std::optional<int> orientation_in_integers(const Point2& a, const Point2& b, const Point2& c) {
+  const auto d = integer_differences<4>({&a, &b}, c);
   if (!d) return std::nullopt;
   const auto [ax, ay, bx, by] = *d;
   const Int128 left = Int128{ax} * by;
@@ -161,8 +162,8 @@ std::optional<int> orientation_in_integers(Point2 a, Point2 b, Point2 c) {
 
 // Differences have 61 bits, minors and squares at most 124, the determinant at most 250. On a lattice most of
 // these bits are zeros at the end: without them it is often 30 bits, at most 62 and at most 126.
-std::optional<int> in_circle_in_integers(Point2 a, Point2 b, Point2 c, Point2 d) {
-  const auto differences = integer_differences<6>({a, b, c}, d);
+std::optional<int> in_circle_in_integers(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  const auto differences = integer_differences<6>({&a, &b, &c}, d);
   if (!differences) return std::nullopt;
   const auto [ax, ay, bx, by, cx, cy] = *differences;
   const int zeros = std::countr_zero(static_cast<std::uint64_t>(ax | ay | bx | by | cx | cy));
@@ -184,23 +185,23 @@ std::optional<int> in_circle_in_integers(Point2 a, Point2 b, Point2 c, Point2 d)
 }
 
 /// In-circle of points that are not the corners of a rectangle.
-int in_circle_of_others(Point2 a, Point2 b, Point2 c, Point2 d) {
+int in_circle_of_others(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
   if (const auto sign = in_circle_in_integers(a, b, c, d)) return *sign;
   return static_cast<int>(
       Kernel().side_of_oriented_circle_2_object()(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
 }
 
 /// If a, b, c and d are the corners of a rectangle along the axes, as in every cell of a raster: the one of
-/// a, b, c that is opposite to d.
-std::optional<Point2> opposite_in_rectangle(Point2 a, Point2 b, Point2 c, Point2 d) {
-  const auto opposite = [d](Point2 o, Point2 p, Point2 q) {
+/// a, b, c that is opposite to d; else none.
+const Point2* opposite_in_rectangle(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
+  const auto opposite = [&d](const Point2& o, const Point2& p, const Point2& q) {
     return (p.x == d.x && q.y == d.y && p.y == o.y && q.x == o.x) ||
            (q.x == d.x && p.y == d.y && q.y == o.y && p.x == o.x);
   };
-  if (opposite(a, b, c)) return a;
-  if (opposite(b, c, a)) return b;
-  if (opposite(c, a, b)) return c;
-  return std::nullopt;
+  if (opposite(a, b, c)) return &a;
+  if (opposite(b, c, a)) return &b;
+  if (opposite(c, a, b)) return &c;
+  return nullptr;
 }
 
 // Some three of the points are collinear, the largest among them: then the next largest decides.
@@ -234,7 +235,7 @@ int orientation_exact(Point2 a, Point2 b, Point2 c) {
 }
 
 int in_circle_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
-  return opposite_in_rectangle(a, b, c, d) ? 0 : in_circle_of_others(a, b, c, d);
+  return opposite_in_rectangle(a, b, c, d) != nullptr ? 0 : in_circle_of_others(a, b, c, d);
 }
 
 int side_of_plane_exact(Point2 a, Point2 b, Point2 c, Point2 d, const std::array<double, 4>& heights) {
@@ -244,11 +245,12 @@ int side_of_plane_exact(Point2 a, Point2 b, Point2 c, Point2 d, const std::array
 }
 
 int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {
-  const Point2 largest = std::max({a, b, c, d});
-  if (largest == d) return -1;
-  const int sign = largest == c   ? orientation(a, b, d)
-                   : largest == b ? orientation(a, d, c)
-                                  : orientation(d, b, c);
+  const Point2& largest_of_ab = a < b ? b : a;
+  const Point2& largest = largest_of_ab < c ? c : largest_of_ab;
+  if (largest < d) return -1;
+  const int sign = &largest == &c   ? orientation(a, b, d)
+                   : &largest == &b ? orientation(a, d, c)
+                                    : orientation(d, b, c);
   return sign != 0 ? sign : break_tie_of_collinear(a, b, c, d);
 }
 
@@ -256,7 +258,7 @@ int break_cocircular_tie(Point2 a, Point2 b, Point2 c, Point2 d) {
 // of d's neighbours by d keeps the turn, replacing its opposite reverses it. In a rectangle the largest is
 // the upper right corner.
 bool in_circle_perturbed_exact(Point2 a, Point2 b, Point2 c, Point2 d) {
-  if (const auto o = opposite_in_rectangle(a, b, c, d)) return (d.x > o->x) != (d.y > o->y);
+  if (const Point2* o = opposite_in_rectangle(a, b, c, d)) return (d.x > o->x) != (d.y > o->y);
   const int sign = in_circle_of_others(a, b, c, d);
   return sign != 0 ? sign > 0 : break_cocircular_tie(a, b, c, d) > 0;
 }

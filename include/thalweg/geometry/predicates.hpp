@@ -32,6 +32,8 @@ inline constexpr int kUndecided = 2;
 struct RoundedDeterminant {
   double value;
   double doubt;
+  /// False where a coordinate is NaN.
+  [[nodiscard]] bool sure() const { return std::abs(value) > doubt; }
   [[nodiscard]] int sign() const { return value > doubt ? 1 : -value > doubt ? -1 : kUndecided; }
 };
 
