@@ -9,7 +9,8 @@
 // 2. The cells whose circles hold the vertex (under the tie rule, which is one perturbation of the lifted
 //    points) form its cavity: connected, around the located cell, without vertices inside, so its dual graph
 //    is a tree. A depth-first search that takes sides counter-clockwise therefore needs no marks, and comes
-//    upon the sides of the cavity's rim one after the other, counter-clockwise.
+//    upon the sides of the cavity's rim one after the other, counter-clockwise. Cells are judged before it is
+//    their turn, both behind one at once, and without branches on the outcome: waits overlap.
 // 3. As it does, each side of the rim and the vertex make a new cell, linked to the one before. Cells of the
 //    cavity are used again once the search is over; two more than there were are needed, so n vertices fill
 //    exactly 2 n - 2 cells.
@@ -49,20 +50,19 @@ namespace {
 // A few milliseconds of work.
 constexpr std::size_t kStepsBetweenChecks = 2048;
 
-constexpr std::size_t kRoom = 64;
-
 class Insertion {
  public:
   Insertion(const Positions& at, std::span<Cell> cells, std::uint32_t first_cell)
-      : at_(at), cells_(cells), next_cell_(first_cell) {}
+      : at_(at), cells_(cells), next_cell_(first_cell) {
+    make_room(64);
+  }
 
   void start(std::array<std::uint32_t, 3> corners);
   void insert(std::uint32_t v);
 
  private:
   [[nodiscard]] std::uint32_t locate(Point2 p) const;
-  void grow_room() {
-    const std::size_t room = 2 * cavity_.size();
+  void make_room(std::size_t room) {
     pending_.resize(room);
     cavity_.resize(room);
     rim_.resize(room);
@@ -71,11 +71,11 @@ class Insertion {
   Positions at_;
   std::span<Cell> cells_;
   std::uint32_t next_cell_;
-  std::uint32_t last_ = 0;              ///< a finite cell near the next vertex, as is hoped
+  std::uint32_t last_ = 0;  ///< a finite cell near the next vertex, as is hoped
   // Room for the search of a cavity: of each there are at most two more than cells in conflict.
-  std::vector<std::uint64_t> pending_ = std::vector<std::uint64_t>(kRoom);  ///< twice a side of a cell that is to be visited, and one more if that is in conflict
-  std::vector<std::uint32_t> cavity_ = std::vector<std::uint32_t>(kRoom);  ///< cells in conflict
-  std::vector<std::uint32_t> rim_ = std::vector<std::uint32_t>(kRoom);     ///< sides, seen from outside of the cavity
+  std::vector<std::uint64_t> pending_;  ///< twice a side of a cell to visit; one more: that is in conflict
+  std::vector<std::uint32_t> cavity_;   ///< cells in conflict
+  std::vector<std::uint32_t> rim_;      ///< sides, seen from outside of the cavity
 };
 
 // Pre: corners are counter-clockwise. The three ghosts lie beyond the sides.
@@ -123,12 +123,12 @@ std::uint32_t Insertion::locate(Point2 p) const {
 void Insertion::insert(std::uint32_t v) {
   const Point2 p = at_[v];
   const std::uint32_t start = locate(p);
-  const auto look_at = [&](std::uint32_t side) {
+  const auto judged = [&](std::uint32_t side) {
     return 2 * std::uint64_t{side} + (in_conflict(cells_[cell_of(side)], at_, p) ? 1 : 0);
   };
   std::size_t cavity = 0, rim = 0, pending = 0;
   cavity_[cavity++] = start;
-  for (std::uint32_t i = 3; i-- > 0;) pending_[pending++] = look_at(cells_[start].neighbour[i]);
+  for (std::uint32_t i = 3; i-- > 0;) pending_[pending++] = judged(cells_[start].neighbour[i]);
   while (pending > 0) {
     const std::uint64_t next = pending_[--pending];
     const auto side = static_cast<std::uint32_t>(next / 2);
@@ -136,12 +136,12 @@ void Insertion::insert(std::uint32_t v) {
       rim_[rim++] = side;
       continue;
     }
-    if (cavity + 3 == cavity_.size()) grow_room();
+    if (cavity + 3 == cavity_.size()) make_room(2 * cavity_.size());
     const Cell& cell = cells_[cell_of(side)];
     const std::uint32_t corner = corner_of(side);
     cavity_[cavity++] = cell_of(side);
-    pending_[pending] = look_at(cell.neighbour[before(corner)]);
-    pending_[pending + 1] = look_at(cell.neighbour[after(corner)]);
+    pending_[pending] = judged(cell.neighbour[before(corner)]);
+    pending_[pending + 1] = judged(cell.neighbour[after(corner)]);
     pending += 2;
   }
   THALWEG_ASSERT(rim == cavity + 2);
@@ -149,12 +149,11 @@ void Insertion::insert(std::uint32_t v) {
   cavity_[cavity++] = next_cell_++;
 
   const std::uint32_t infinity = at_.infinity();
-  const std::size_t count = rim;
-  std::uint32_t previous = cavity_[count - 1];
-  for (std::size_t i = 0; i < count; ++i) {
+  std::uint32_t previous = cavity_[rim - 1];
+  for (std::size_t i = 0; i < rim; ++i) {
     const std::uint32_t outer = rim_[i];
     const std::uint32_t made = cavity_[i];
-    const std::uint32_t following = cavity_[i + 1 == count ? 0 : i + 1];
+    const std::uint32_t following = cavity_[i + 1 == rim ? 0 : i + 1];
     Cell& beyond = cells_[cell_of(outer)];
     const std::uint32_t corner = corner_of(outer);
     const std::uint32_t from = beyond.vertex[before(corner)];

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -28,15 +29,26 @@ namespace {
 constexpr std::size_t kBlock = 8192;
 
 void fill_finite(std::span<const Cell> cells, std::uint32_t infinity, LinkedTriangles& finite) {
-  std::vector<TriangleId> place(cells.size());
-  std::uint32_t count = 0;
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const auto [u, v, w] = cells[c].vertex;
-    if (u != infinity && v != infinity && w != infinity) place[c] = TriangleId{count++};
-  }
-  finite.corners.resize(count);
-  finite.twins.resize(3 * std::size_t{count});
-  for_each_block(cells.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+  const auto is_finite = [&](const Cell& cell) {
+    const auto [u, v, w] = cell.vertex;
+    return u != infinity && v != infinity && w != infinity;
+  };
+  const auto in_blocks = [&](const auto& body) { for_each_block(cells.size(), kBlock, Progress(), body); };
+  std::vector<std::uint32_t> first(cells.size() / kBlock + 2, 0);  // for each block: how many lie before it
+  in_blocks([&](std::size_t begin, std::size_t end) {
+    first[begin / kBlock + 1] =
+        static_cast<std::uint32_t>(std::ranges::count_if(cells.subspan(begin, end - begin), is_finite));
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  RawVector<TriangleId> place(cells.size());
+  in_blocks([&](std::size_t begin, std::size_t end) {
+    std::uint32_t next = first[begin / kBlock];
+    for (std::size_t c = begin; c < end; ++c)
+      place[c] = is_finite(cells[c]) ? TriangleId{next++} : TriangleId{};
+  });
+  finite.corners.resize(first.back());
+  finite.twins.resize(3 * std::size_t{first.back()});
+  in_blocks([&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       if (!place[c].valid()) continue;
       for (std::uint32_t corner = 0; corner < 3; ++corner) {

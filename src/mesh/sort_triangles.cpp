@@ -113,7 +113,10 @@ SortedTriangles sort_triangles(std::span<const Triangle> corners, std::span<cons
       for (std::size_t i = first; i < buckets.end[v]; ++i) {
         const Entry& entry = buckets.entries[i];
         const std::size_t old = entry.taken.index() / 3, corner = entry.taken.index() - 3 * old;
-        sorted.triangles[i] = {VertexId{v}, entry.second, entry.third};
+        Triangle& triangle = sorted.triangles[i];
+        triangle[0] = VertexId{v};
+        triangle[1] = entry.second;
+        triangle[2] = entry.third;
         sorted.moved[old] = HalfedgeId{3 * i + (corner == 0 ? 0 : 3 - corner)};
       }
     }

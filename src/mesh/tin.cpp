@@ -78,6 +78,7 @@ RawVector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress
   release(linked.number);
   twins_.resize(halfedge_count());
   kinds_.resize(halfedge_count());
+  if (linked.kinds.empty()) std::ranges::fill(kinds_, EdgeKind::None);
   std::atomic<std::size_t> rim = 0;
   for_each_block(triangles_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::size_t on_rim = 0;
@@ -86,7 +87,7 @@ RawVector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress
       const std::size_t h = sorted.now(HalfedgeId{given}).index();
       twins_[h] = twin.valid() ? sorted.now(twin) : HalfedgeId{};
       on_rim += twin.valid() ? 0 : 1;
-      kinds_[h] = linked.kinds.empty() ? EdgeKind::None : linked.kinds[given];
+      if (!linked.kinds.empty()) kinds_[h] = linked.kinds[given];
     }
     rim += on_rim;
   });
