@@ -12,6 +12,7 @@
 //    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
 //    them.
 #include "base/parallel.hpp"
+#include "base/release.hpp"
 #include "drawing.hpp"
 #include "heights.hpp"
 #include "lakes.hpp"
@@ -249,9 +250,10 @@ void level(const Survey& survey, const Drawing& drawing, std::span<const std::ui
   ground.tin = ground.tin.with_heights(std::move(levelled.z));
 }
 
-}  // namespace
-
-Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress) {
+/// `points_are_placed` is called when the survey's points are needed no more.
+template <class Release>
+Ground build(const Survey& survey, const GroundOptions& options, const Release& points_are_placed,
+             Progress& progress) {
   MergedVertices merged = merge_vertices(survey, options, progress);
   check_rings(survey, merged);
   const auto every = lines_to_draw(survey, [](const SurveyLine&) { return true; });
@@ -264,6 +266,7 @@ Ground build_ground(const Survey& survey, const GroundOptions& options, Progress
   ground.mode = has_region(survey) ? GroundMode::Polygon : GroundMode::Hull;
   ground.pixel = drawing.noding.pixel;
   ground.duplicates_merged = survey.points.xy.size() - drawing.vertices.point_count;
+  points_are_placed();
   std::vector<ConstraintEdge> edges = constraint_edges(survey, drawing);
 
   Plan plan{.xy = std::move(drawing.vertices.xy),
@@ -303,6 +306,21 @@ Ground build_ground(const Survey& survey, const GroundOptions& options, Progress
     ground.crossings += origin.kind == VertexOrigin::Kind::Crossing ? 1 : 0;
   }
   return ground;
+}
+
+}  // namespace
+
+Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress) {
+  return build(
+      survey, options, [] {}, progress);
+}
+
+Ground build_ground(Survey&& survey, const GroundOptions& options, Progress& progress) {
+  const auto release_points = [&survey] {
+    release(survey.points.xy);
+    release(survey.points.z);
+  };
+  return build(survey, options, release_points, progress);
 }
 
 }  // namespace thalweg

@@ -73,6 +73,9 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
                       most_at_vertex(options.width_limit));
   Labelling<Criteria>& labelling = problem.labelling;
   labelling.unary.resize(quadrilaterals.size());
+  // Ties take much memory while they are found; rows and weights stay.
+  problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);
+  progress.advance(0.2);
   if (!problem.sums.empty()) {
     TermScan::Rows rows = scan.lay_out_rows(progress);
     labelling.first = std::move(rows.first);
@@ -81,15 +84,13 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   } else {
     labelling.first.assign(quadrilaterals.size() + 1, 0);
   }
-  progress.advance(0.1);
+  progress.advance(0.3);
   for (std::size_t level = 0; level < problem.sums.size(); ++level) {
     if (!problem.sums[level].is_extreme() && !problem.sums[level].is_of_pits()) {
       problem.delaunay[level] = add_objective(scan, problem.sums[level], level, labelling, progress);
     }
-    progress.advance(0.1 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
+    progress.advance(0.3 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
   }
-  problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);
-  progress.advance(0.9);
   const auto counts_pits = [](const Objective& objective) { return objective.is(Criterion::LocalMinima); };
   if (std::any_of(options.criteria.begin(), options.criteria.end(), counts_pits)) {
     problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);

@@ -191,7 +191,8 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
 
   progress.start_phase("triangulate");
   if (plane.projected()) survey.survey.to_source = [&back = plane](Point2 p) { return back.to_written(p); };
-  Ground ground = build_ground(survey.survey, ground_options(config, plane), progress);
+  Survey valleys = drawn_valleys(survey.survey, config.condition);
+  Ground ground = build_ground(std::move(survey.survey), ground_options(config, plane), progress);
   describe_input(read, ground, report);
   report.conflicts = conflicts_of(std::move(ground.conflicts), plane);
   Terrain terrain{.written = written_of(ground, survey, plane),
@@ -199,7 +200,6 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
                   .number = std::move(ground.number)};
   if (plane.projected()) terrain.continuous = plane.to_lonlat(terrain.written);
   terrain.mode = ground.mode;
-  Survey valleys = drawn_valleys(survey.survey, config.condition);
   survey = {};
   terrain.ground = std::move(ground.tin);
   ground = {};

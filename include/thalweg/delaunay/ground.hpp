@@ -82,5 +82,8 @@ struct Ground {
 /// {WrongGeometry} an open ring; {TooClose} vertices too close for double arithmetic; {SizeLimit} lines cross
 /// or overlap 2^26 times; {Cancelled}. Complexity: about n log n on real data; a crossing costs a vertex.
 Ground build_ground(const Survey& survey, const GroundOptions& options, Progress& progress);
+/// The same, and gives back the memory of the survey's points as soon as they are on the ground, which is
+/// before it takes most memory itself; lines stay.
+Ground build_ground(Survey&& survey, const GroundOptions& options, Progress& progress);
 
 }  // namespace thalweg

@@ -102,6 +102,24 @@ TEST(Ground, NamesVerticesInOrderOfAppearance) {
   EXPECT_EQ(ground.tin.constraint_edges().size(), 5U);
 }
 
+TEST(Ground, GivesBackThePointsOfASurveyThatIsHandedOver) {
+  Survey survey = make_survey({{0, 0, 1}, {10, 0, 2}, {0, 0, 4}, {10, 10, 3}, {0, 10, 4}});
+  add_hard(survey, {{2, 1, 5}, {8, 9, 5}});
+  add_hard(survey, {{2, 9, 5}, {10, 0, 7}, {8, 1, 5}});
+  const Ground kept = build(survey);
+  Progress progress;
+  const Ground handed_over = build_ground(std::move(survey), {}, progress);
+  EXPECT_EQ(survey.points.xy.capacity(), 0U);  // NOLINT(bugprone-use-after-move): what it promises
+  EXPECT_EQ(survey.lines.size(), 2U);
+  EXPECT_TRUE(std::ranges::equal(kept.tin.triangles(), handed_over.tin.triangles()));
+  EXPECT_TRUE(std::ranges::equal(kept.tin.heights(), handed_over.tin.heights()));
+  EXPECT_EQ(handed_over.duplicates_merged, 1U);
+  ASSERT_EQ(handed_over.conflicts.size(), kept.conflicts.size());
+  for (std::size_t i = 0; i < kept.conflicts.size(); ++i) {
+    EXPECT_EQ(kept.conflicts[i].source_a, handed_over.conflicts[i].source_a);
+  }
+}
+
 TEST(Ground, DuplicateRules) {
   std::vector<Point3> points = kSquare;
   points.push_back({0, 0, 6});
