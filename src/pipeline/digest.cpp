@@ -1,9 +1,11 @@
 // SHA-256 (OpenSSL) over a canonical order of vertices and constraint edges, independent of ids.
 #include "pipeline/digest.hpp"
 
+#include "base/buckets.hpp"
+#include "base/parallel.hpp"
+
 #include <fmt/format.h>
 #include <openssl/evp.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -38,15 +40,37 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
+using Row = std::array<double, 3>;
+
+/// Position and height of all vertices, sorted: by x into buckets, then each of these.
+std::vector<Row> sorted_rows(std::span<const Point2> xy, std::span<const double> heights) {
+  constexpr std::size_t kBlock = 4096;
+  std::vector<Row> rows(xy.size());
+  const Box2 box = bounding_box(xy);
+  const std::size_t count = xy.size() / 2 + 1;
+  const BucketOfCoordinate bucket_of(box.x_min, box.x_max, count);
+  std::vector<std::uint32_t> bucket(xy.size());
+  for (std::size_t v = 0; v < xy.size(); ++v) bucket[v] = bucket_of(xy[v].x);
+  const Buckets buckets = sort_into_buckets(bucket, count);
+  for_each_block(count, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const std::size_t first = buckets.first[b], last = buckets.first[b + 1];
+      for (std::size_t i = first; i < last; ++i) {
+        const std::uint32_t v = buckets.item[i];
+        rows[i] = {xy[v].x, xy[v].y, heights[v]};
+      }
+      std::sort(rows.begin() + first, rows.begin() + last);
+    }
+  });
+  return rows;
+}
+
 }  // namespace
 
 std::string digest_of(const Tin& tin, std::span<const Point2> written) {
   const std::span<const Point2> xy = written.empty() ? tin.points() : written;
-  std::vector<std::array<double, 3>> vertices(xy.size());
-  for (std::size_t v = 0; v < xy.size(); ++v) vertices[v] = {xy[v].x, xy[v].y, tin.heights()[v]};
-  tbb::parallel_sort(vertices.begin(), vertices.end());
   Sha256 digest;
-  digest.add(vertices);
+  digest.add(sorted_rows(xy, tin.heights()));
 
   std::vector<std::pair<Point2, Point2>> edges;
   for (const ConstraintEdge& edge : tin.constraint_edges()) {
