@@ -1,16 +1,15 @@
 // Candidate triangles, their edges, crossings and faces.
 //
 // 1. Edges of all triangles, sorted; a triangle with a side off the rim beyond which there is none goes,
-// until
-//    none goes. What remains of the edges is numbered.
+//    until none goes. What remains of the edges is numbered.
 // 2. An edge that is none of the ground is followed through the triangles of the ground that it crosses: the
 //    ground's edges on the way cross it; edges that pass one triangle of the ground are tested against each
 //    other. Two edges that cross have their common point in a triangle of the ground that both pass, or on an
 //    edge that both cross.
 // 3. Faces: triangles that share a free edge, and those with edges that cross, are of one face. Conversely
-// the
-//    triangles of one triangulation of a face hang together over free edges, and any other candidate of the
-//    face overlaps one of them, so it has a free edge in common with it or one that crosses one of its edges.
+//    the triangles of one triangulation of a face hang together over free edges, and any other candidate of
+//    the face overlaps one of them, so it has a free edge in common with it or one that crosses one of its
+//    edges.
 #include "order/candidates.hpp"
 
 #include "base/parallel.hpp"

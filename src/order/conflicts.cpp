@@ -1,11 +1,11 @@
 // Conflicts.
 //
 // 1. A flip of uv takes away the triangles uvs and vut. Two flips of one triangle, of its sides uv and us,
-// say, put
-//    in two segments that start at s and at v, and that leave it through uv and us: they cross inside.
+//    say, put in two segments that start at s and at v, and that leave it through uv and us: they cross
+//    inside.
 // 2. Two that share no triangle have disjoint interiors, so their diagonals do not meet, and the sides of a
-//    quadrilateral are crossed by no diagonal of another that is flipped: only one that shares a triangle
-//    has a side of it as its own Delaunay diagonal. Hence laws 1 and 2.
+//    quadrilateral are crossed by no diagonal of another that is flipped: only one that shares a triangle has
+//    a side of it as its own Delaunay diagonal. Hence laws 1 and 2.
 // 3. Among all triangulations: those of a face are listed, and the pairs of its free edges that they hold are
 //    struck off. Faces do not know of each other, and fixed edges exclude nothing.
 #include "base/parallel.hpp"

@@ -1,28 +1,24 @@
 // The eight orders of one triangle.
 //
 // 1. Std: all vertices in the disc, by a flood through every edge; over a polygon, whose ground may fall
-// apart inside
-//    the disc, by a grid of its vertices.
+//    apart inside the disc, by a grid of its vertices.
 // 2. Pathcon: a flood that edges stop which block (flood.cpp). All other definitions count some of its
-// vertices:
-//    each sight line that they ask for lies in the disc, and joins the vertex to the interior of the
-//    triangle. In particular none of them counts beyond a side that blocks, and no such vertex is reached.
+//    vertices: each sight line that they ask for lies in the disc, and joins the vertex to the interior of
+//    the triangle. In particular none of them counts beyond a side that blocks, and no such vertex is
+//    reached.
 // 3. SeesOpp: what the corners see through the sides across from them (corner_views.cpp); where that takes
 //    long, a flood, and a walk to the opposite vertex. It runs through the triangle, for the part of the disc
 //    beyond a side is a cap that can be left only through that side. Sees3vtx and EmptyQuad count some of
 //    what SeesOpp counts.
-// 4. SeesTriang: where the flood takes long, the light from the sides (side_count.cpp), as far as it does
-// not.
-//    Else seeing the opposite vertex is enough, or the gaps of the view decide (sights.cpp). SeesVtx: also a
-//    walk to one of the corners.
+// 4. SeesTriang: where the flood takes long, the light from the sides (side_count.cpp), if it ends earlier:
+//    both are tried in turns, each time much farther. Else seeing the opposite vertex is enough, or the gaps
+//    of the view decide (sights.cpp). SeesVtx: also a walk to one of the corners.
 // 5. ConfEdge: p counts if it sees the opposite vertex, or a vertex r in the cap of another side: from cap to
-// cap a
-//    segment always crosses the interior, and within a cap or to the ends of its side never. r itself is
-//    reached.
+//    cap a segment always crosses the interior, and within a cap or to the ends of its side never. r itself
+//    is reached.
 // 6. Where the flood finds many vertices, all of them at once by angular sweeps (sweep_count.cpp).
 // 7. Sees3vtx: three walks. EmptyQuad: exactly the p for which uvp is a valid triangle: then up and pv are
-// free or
-//    constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
+//    free or constraint edges, the triangle is empty, and p sees w across two triangles that nothing enters.
 // 8. Of order 0 or 1, SeesVtx counts what SeesTriang does, and SeesOpp what ConfEdge does (Lemmas 5 and 6).
 //    So up to a limit of 1 the corners' views decide these, too; a vertex that an end of a side sees, and not
 //    the corner opposite, is asked for the side. Above it they tell that there are too many, or what the
@@ -75,6 +71,12 @@ constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
 
 /// Of a flood: what most discs of low order hold. Where they hold more, the corners' views may be far fewer.
 constexpr std::size_t kFewFaces = 20;
+
+/// Of light from a side. Where a flood takes more than a few it mostly ends before: most of the disc is dark.
+constexpr std::size_t kLitFaces = 4096;
+
+/// How much farther light and a flood go, in turns, until one of them ends.
+constexpr std::size_t kFarther = 16;
 
 /// Up to this limit the list of what is counted is searched.
 constexpr std::size_t kMostSearched = 64;
@@ -225,13 +227,13 @@ bool ConstrainedOrder::count_by_views(const Triangle& corners, OrderDefinition d
 
 // As count, under SeesTriang, SeesVtx or ConfEdge; under the last `counted` holds what SeesOpp counts. False
 // if that takes long.
-bool ConstrainedOrder::count_by_sides(const Triangle& corners, OrderDefinition definition, std::size_t limit,
-                                      OrderWorkspace& workspace) const {
+bool ConstrainedOrder::count_by_sides(const Triangle& corners, OrderDefinition definition,
+                                      const Limits& limits, OrderWorkspace& workspace) const {
   std::vector<VertexId>& counted = workspace.parts_->counted;
   detail::SideCount& sides = workspace.parts_->side_count;
   const auto all = definition == OrderDefinition::ConfEdge
-                       ? sides.conflicting(parts_->ground, corners, counted, limit)
-                       : sides.lit(parts_->ground, corners, limit);
+                       ? sides.conflicting(parts_->ground, corners, counted, limits.counted)
+                       : sides.lit(parts_->ground, corners, limits.counted, limits.faces);
   if (!all) return false;
   counted.assign(all->begin(), all->end());
   if (definition == OrderDefinition::SeesVtx) {
@@ -245,7 +247,7 @@ bool ConstrainedOrder::count_by_sides(const Triangle& corners, OrderDefinition d
 
 // As count, by a flood from a face that the triangle overlaps. False if that takes more faces.
 bool ConstrainedOrder::count_by_flood(const Triangle& corners, TriangleId start, OrderDefinition definition,
-                                      const FloodLimits& limits, OrderWorkspace& workspace) const {
+                                      const Limits& limits, OrderWorkspace& workspace) const {
   const Ground& ground = parts_->ground;
   auto& [flood, occupancy, side_sight, sweeps, views, side_count, undecided, counted] = *workspace.parts_;
   undecided.clear();
@@ -253,10 +255,10 @@ bool ConstrainedOrder::count_by_flood(const Triangle& corners, TriangleId start,
   const bool all = definition == OrderDefinition::Std || !ground.any_blocks();
   flood.start(ground, corners, start, all ? detail::Barrier::None : detail::Barrier::BlockingEdges);
   const bool may_sweep = !all && definition != OrderDefinition::Pathcon;
+  if (limits.counted == kUnlimited && !flood.spread(limits.faces)) return false;
   while (const auto p = flood.next(limits.faces)) {
     if (may_sweep && flood.inside().size() > kMostPairs) {
-      while (flood.next(kUnlimited)) {
-      }
+      flood.spread();
       const auto found = sweeps.count(ground, corners, start, definition, flood);
       counted.assign(found.begin(), found.end());
       return true;
@@ -300,12 +302,15 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
     if (count_by_flood(corners, face, definition, {limit, kFewFaces}, workspace)) return;
     if (count_by_views(corners, weaker, limit, workspace)) {
       if (same || counted.size() > limit) return;
-      if (count_by_sides(corners, definition, limit, workspace)) return;
+      if (count_by_sides(corners, definition, {limit, kLitFaces}, workspace)) return;
     }
   }
   if (limit == kUnlimited && weaker == OrderDefinition::SeesVtx && ground.any_blocks()) {
     if (count_by_flood(corners, face, definition, {limit, kFewFaces}, workspace)) return;
-    if (count_by_sides(corners, definition, limit, workspace)) return;
+    for (std::size_t faces = kLitFaces;; faces *= kFarther) {
+      if (count_by_sides(corners, definition, {limit, faces}, workspace)) return;
+      if (count_by_flood(corners, face, definition, {limit, faces}, workspace)) return;
+    }
   }
   count_by_flood(corners, face, definition, {limit, kUnlimited}, workspace);
 }

@@ -1,9 +1,8 @@
 // Cones that shrink.
 //
 // 1. A line of sight from the opposite corner w to a vertex inside beyond uv lies in the disc and in the
-// angle
-//    from u to v; one from u lies right of uv. The walk takes that angle from face to face, cut to what the
-//    next edge leaves of it, and ends it at an edge that blocks, at the rim, and at an edge that does not
+//    angle from u to v; one from u lies right of uv. The walk takes that angle from face to face, cut to what
+//    the next edge leaves of it, and ends it at an edge that blocks, at the rim, and at an edge that does not
 //    meet the disc.
 // 2. A vertex next to the eye is seen. One strictly inside of a cone is, too: all lines to the points of the
 //    edge through which the cone came in are free. It splits the cone. One on the border is in line with a

@@ -8,8 +8,7 @@
 // 1. Edges to look at are on a stack of halfedges. A flip moves the edges of its two triangles to other
 //    halfedges and puts the four outer ones on the stack anew, so an entry out of date does no harm.
 // 2. Edge ab between triangles a b c and b a d becomes cd between a d c, in the first's place, and d b c, in
-// the
-//    second's.
+//    the second's.
 #include "order/delaunay_flips.hpp"
 
 #include <thalweg/geometry/predicates.hpp>

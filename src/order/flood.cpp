@@ -1,18 +1,15 @@
 // Which vertices can be reached inside a disc.
 //
 // 1. The flood spreads from face to face through every edge that meets the open disc (and does not block).
-// Faces and
-//    disc are convex, so their common part is connected: if a face is reached, so is each point of it in the
-//    disc.
+//    Faces and disc are convex, so their common part is connected: if a face is reached, so is each point of
+//    it in the disc.
 // 2. A vertex inside is reached if a reached face has it as a corner: from a point of the face in the open
-// disc a
-//    segment inside both leads to it. Vertices exactly on the circle are inside by the tie rule only; the
-//    disc itself, and so the question which edges meet it, is never perturbed.
+//    disc a segment inside both leads to it. Vertices exactly on the circle are inside by the tie rule only;
+//    the disc itself, and so the question which edges meet it, is never perturbed.
 // 3. Outside of a convex ground there is one face for each rim edge. The rim inside the disc falls into
-// chains, and
-//    the outside inside the disc into one piece a chain, for the ground between them is convex: neighbouring
-//    outer faces are joined exactly if their common vertex is strictly inside. With no barrier the faces of
-//    the ground alone are connected inside the disc, and hold every vertex.
+//    chains, and the outside inside the disc into one piece a chain, for the ground between them is convex:
+//    neighbouring outer faces are joined exactly if their common vertex is strictly inside. With no barrier
+//    the faces of the ground alone are connected inside the disc, and hold every vertex.
 #include "order/flood.hpp"
 
 namespace thalweg::detail {
@@ -32,19 +29,31 @@ void Flood::start(const Ground& ground, const Triangle& corners, TriangleId face
 }
 
 std::optional<VertexId> Flood::next(std::size_t most_faces) {
-  const std::size_t triangles = ground_->tin().triangle_count();
   while (yielded_ == inside_.size()) {
     if (pending_.empty() || spread_ == most_faces) return std::nullopt;
-    ++spread_;
-    const std::uint32_t face = pending_.back();
-    pending_.pop_back();
-    if (face < triangles) {
-      spread_from_triangle(TriangleId{face});
-    } else {
-      spread_from_outside(HalfedgeId{face - triangles});
-    }
+    spread_from_last();
   }
   return inside_[yielded_++];
+}
+
+bool Flood::spread(std::size_t most_faces) {
+  while (!pending_.empty()) {
+    if (spread_ == most_faces) return false;
+    spread_from_last();
+  }
+  return true;
+}
+
+void Flood::spread_from_last() {
+  const std::size_t triangles = ground_->tin().triangle_count();
+  ++spread_;
+  const std::uint32_t face = pending_.back();
+  pending_.pop_back();
+  if (face < triangles) {
+    spread_from_triangle(TriangleId{face});
+  } else {
+    spread_from_outside(HalfedgeId{face - triangles});
+  }
 }
 
 void Flood::enter(std::uint32_t face) {

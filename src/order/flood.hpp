@@ -32,6 +32,8 @@ class Flood {
   /// The next vertex inside, or none when the flood has ended, or entered `most_faces` in all. Each comes
   /// once; corners never come.
   std::optional<VertexId> next(std::size_t most_faces = std::numeric_limits<std::size_t>::max());
+  /// Goes on without yielding what it finds. False if it enters more than `most_faces` in all.
+  bool spread(std::size_t most_faces = std::numeric_limits<std::size_t>::max());
   [[nodiscard]] bool ended() const { return pending_.empty() && yielded_ == inside_.size(); }
   /// All vertices that have come so far.
   [[nodiscard]] std::span<const VertexId> inside() const { return inside_; }
@@ -40,6 +42,7 @@ class Flood {
   [[nodiscard]] std::span<const HalfedgeId> barriers() const { return barriers_; }
 
  private:
+  void spread_from_last();
   void spread_from_triangle(TriangleId face);
   void spread_from_outside(HalfedgeId rim);
   void enter(std::uint32_t face);

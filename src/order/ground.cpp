@@ -1,13 +1,11 @@
 // Straight walks over a triangulation.
 //
 // 1. A sight line from vertex to vertex starts in the face around its start into which it points, or along an
-// edge.
+//    edge.
 // 2. It crosses faces by the sides on which their third vertices lie, until it meets a vertex: its end, or
-// one that
-//    blocks if a blocking edge ends there, and from which the walk goes on otherwise.
+//    one that blocks if a blocking edge ends there, and from which the walk goes on otherwise.
 // 3. A blocking edge that it would cross ends it. An edge that overlaps it is one of the ground's, for
-// vertices lie
-//    only at ends of edges; if it blocks, so do its ends.
+//    vertices lie only at ends of edges; if it blocks, so do its ends.
 #include "order/ground.hpp"
 
 #include "base/union_find.hpp"

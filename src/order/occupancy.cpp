@@ -1,20 +1,15 @@
 // Is a triangle of three vertices valid?
 //
 // 1. Visit the faces of the ground that meet the open triangle, from one at its first corner on, through all
-// edges
-//    that meet it. A face and a triangle are convex, so this visits all of them.
+//    edges that meet it. A face and a triangle are convex, so this visits all of them.
 // 2. Each vertex in the closed triangle is a corner of such a face: the triangle is occupied if one is found
-// that
-//    is no corner of its own.
+//    that is no corner of its own.
 // 3. In an unoccupied triangle an edge that blocks can meet the closed triangle only at its corners or
-// through its
-//    interior, for its ends lie outside: it is crossed if one was met on the way.
+//    through its interior, for its ends lie outside: it is crossed if one was met on the way.
 // 4. A segment meets an open triangle unless a line separates them; two convex polygons are separated, if at
-// all, by
-//    the line of a side of one of them.
+//    all, by the line of a side of one of them.
 // 5. Where the triangle leaves the ground of a polygon, the faces do not tell what lies in it: then every
-// vertex and
-//    edge is looked at.
+//    vertex and edge is looked at.
 #include "order/occupancy.hpp"
 
 #include <algorithm>

@@ -8,8 +8,7 @@
 //    part is convex, so all faces that meet it hang together over such edges; the list only gets nearer.
 //    First no farther than the circle through the nearest vertex of the other side: most edges end there.
 // 3. Let uv cross edge ab of the ground, a on the left. If uv is of use at order k, then so is the triangle
-// of
-//    u, v and its nearest vertex on the left (Gudmundsson, Hammar, van Kreveld, Higher order Delaunay
+//    of u, v and its nearest vertex on the left (Gudmundsson, Hammar, van Kreveld, Higher order Delaunay
 //    triangulations, 2002, Lemma 3), and b is inside its circle. For a is not inside; if b were not either,
 //    and u, v are not inside the empty circle of ab, the product of the lengths from the crossing to a and b
 //    would be at least, and at most, that to u and v. So at most k vertices a side have such edges; and the

@@ -4,28 +4,24 @@
 // 2009, section 6; the test of an edge is ours.
 //
 // 1. Let uv be an edge of the constrained Delaunay triangulation that does not block, between triangles uvs
-// and vut,
-//    with s u t v strictly convex. It is a quadrilateral if triangles sut and tvs have order at most 1. Take
-//    sut, with the disc D of its circumcircle. v lies in D, and counts under every definition. Is there
-//    another vertex?
+//    and vut, with s u t v strictly convex. It is a quadrilateral if triangles sut and tvs have order at most
+//    one. Take sut, with the disc D of its circumcircle. v lies in D, and counts under every definition. Is
+//    there another vertex?
 // 2. Only neighbours of v can be, as far as Pathcon reaches. Let f be the power of a point to the circle of
-// sut minus
-//    that to the circle of a Delaunay triangle; f is linear. With triangle uvs across su: f vanishes on the
-//    line su, and f(v) < 0, so D beyond su is part of the disc of uvs, where no vertex can be reached.
-//    Likewise across ut. With a triangle v x y at v whose x and y lie outside of D: f(v) < 0 < f(x), f(y).
-//    Were z beyond xy in D, reached through xy, with f(z) < 0, then segment vz, on which f < 0, would cross
-//    the line xy off the segment xy, at a point of D; but D is convex, meets the open segment, and holds
-//    neither x nor y. So D beyond xy is part of the disc of v x y, where no vertex can be reached. The signs
-//    are those of the perturbed points.
+//    sut minus that to the circle of a Delaunay triangle; f is linear. With triangle uvs across su: f
+//    vanishes on the line su, and f(v) < 0, so D beyond su is part of the disc of uvs, where no vertex can be
+//    reached. Likewise across ut. With a triangle v x y at v whose x and y lie outside of D: f(v) < 0 < f(x),
+//    f(y). Were z beyond xy in D, reached through xy, with f(z) < 0, then segment vz, on which f < 0, would
+//    cross the line xy off the segment xy, at a point of D; but D is convex, meets the open segment, and
+//    holds neither x nor y. So D beyond xy is part of the disc of v x y, where no vertex can be reached. The
+//    signs are those of the perturbed points.
 // 3. So: no neighbour of v but u, s, t in D: order 1 under all definitions but Std. A neighbour x in D beyond
-// st
-//    that sees u counts from Std to SeesOpp. Anything else is left to ConstrainedOrder, and happens next to
-//    edges that block. Without such edges all definitions up to Sees3vtx agree.
+//    st that sees u counts from Std to SeesOpp. Anything else is left to ConstrainedOrder, and happens next
+//    to edges that block. Without such edges all definitions up to Sees3vtx agree.
 // 4. The neighbours across the four sides come first, of these the ones that need no exact arithmetic: they
-// refuse most edges.
+//    refuse most edges.
 // 5. Std: there is a triangulation of order at most 1 only if the constrained Delaunay triangulation is one;
-// then both
-//    triangles must pass the Std flood as well.
+//    then both triangles must pass the Std flood as well.
 #include "base/parallel.hpp"
 #include "order/quadrilateral_filter.hpp"
 

@@ -3,12 +3,11 @@
 // 1. SeesTriang counts the vertices on which light falls from the open side beyond which they lie
 //    (side_view.cpp).
 // 2. Under ConfEdge a vertex p counts if it sees the corner opposite, or a vertex r inside beyond another
-// side: a segment
-//    from cap to cap always crosses the interior. It crosses both sides, so light from them falls on p and r.
+//    side: a segment from cap to cap always crosses the interior. It crosses both sides, so light from them
+//    falls on p and r.
 // 3. Of the two, one at least lies beyond one of the two shorter sides. So it is enough to find all on which
-//    light falls from these, and what they see through the longest side (corner_views.cpp).
-//    Where a disc is large the triangle is flat, and the caps beyond the shorter sides are small: they hold
-//    nothing mostly.
+//    light falls from these, and what they see through the longest side (corner_views.cpp). Where a disc is
+//    large the triangle is flat, and the caps beyond the shorter sides are small: they hold nothing mostly.
 // 4. What is seen is few vertices, however much the disc holds, where edges block all around.
 #include "order/side_count.hpp"
 
@@ -19,8 +18,8 @@ namespace thalweg::detail {
 
 namespace {
 
-/// Faces on the ways of light from one side, and vertices beyond it, from which on a flood costs less: a look
-/// from each vertex may take as many faces as the light.
+/// Under ConfEdge: faces on the ways of light from one side, and vertices beyond it, from which on a flood
+/// costs less: a look from each vertex may take as many faces as the light.
 constexpr std::size_t kMostFaces = 4096;
 constexpr std::size_t kMostLit = 64;
 
@@ -35,14 +34,15 @@ void SideCount::add(VertexId v) {
 }
 
 // False if light goes far: then it finds some only.
-bool SideCount::look_from_side(const Ground& ground, const Triangle& corners, std::size_t side) {
+bool SideCount::look_from_side(const Ground& ground, const Triangle& corners, std::size_t side,
+                               std::size_t most_faces) {
   std::vector<VertexId>& lit = lit_[side];
   lit.clear();
   const VertexId u = corners[side], v = corners[(side + 1) % 3];
   if (ground.blocks_between(u, v)) return true;
   const Point2 at_u = ground.point(u), at_v = ground.point(v);
   const Circumdisc disc(at_u, at_v, ground.point(corners[(side + 2) % 3]));
-  const auto seen = side_view_.look(ground, disc, u, v, kMostFaces);
+  const auto seen = side_view_.look(ground, disc, u, v, most_faces);
   std::copy_if(seen.begin(), seen.end(), std::back_inserter(lit), [&](VertexId p) {
     return orientation(at_u, at_v, ground.point(p)) < 0 && disc.holds(ground.point(p));
   });
@@ -64,10 +64,10 @@ bool SideCount::look_through_longest(const Ground& ground, const Triangle& corne
 }
 
 std::optional<std::span<const VertexId>> SideCount::lit(const Ground& ground, const Triangle& corners,
-                                                        std::size_t limit) {
+                                                        std::size_t limit, std::size_t most_faces) {
   counted_.clear();
   for (std::size_t side = 0; side < 3 && counted_.size() <= limit; ++side) {
-    const bool complete = look_from_side(ground, corners, side);
+    const bool complete = look_from_side(ground, corners, side, most_faces);
     counted_.insert(counted_.end(), lit_[side].begin(), lit_[side].end());
     if (!complete && counted_.size() <= limit) return std::nullopt;
   }
@@ -85,7 +85,8 @@ std::optional<std::span<const VertexId>> SideCount::conflicting(const Ground& gr
   if (length(longest_) < length(2)) longest_ = 2;
   const std::size_t one = (longest_ + 1) % 3, other = (longest_ + 2) % 3;
   for (const std::size_t side : {one, other}) {
-    if (!look_from_side(ground, corners, side) || lit_[side].size() > kMostLit) return std::nullopt;
+    if (!look_from_side(ground, corners, side, kMostFaces) || lit_[side].size() > kMostLit)
+      return std::nullopt;
   }
   for (const VertexId p : lit_[one]) {
     for (const VertexId r : lit_[other]) {

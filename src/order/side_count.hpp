@@ -18,10 +18,10 @@ namespace thalweg::detail {
 class SideCount {
  public:
   /// The vertices that SeesTriang counts, in no promised order; of more than `limit`, some more of them. None
-  /// if light goes far. Pre: corners counter-clockwise, a valid triangle. Complexity: the ways of light from
-  /// each side (side_view.hpp).
+  /// if light from a side goes through `most_faces`. Pre: corners counter-clockwise, a valid triangle.
+  /// Complexity: the ways of light from each side (side_view.hpp).
   std::optional<std::span<const VertexId>> lit(const Ground& ground, const Triangle& corners,
-                                               std::size_t limit);
+                                               std::size_t limit, std::size_t most_faces);
   /// The vertices that ConfEdge counts, in no promised order; of more than `limit`, some more of them. None
   /// if sight goes far through the two shorter sides. Pre: as for lit; `by_corners` are the vertices that
   /// SeesOpp counts. Complexity: the ways of light from the two shorter sides, and for each vertex on which
@@ -31,7 +31,8 @@ class SideCount {
                                                        std::size_t limit);
 
  private:
-  bool look_from_side(const Ground& ground, const Triangle& corners, std::size_t side);
+  bool look_from_side(const Ground& ground, const Triangle& corners, std::size_t side,
+                      std::size_t most_faces);
   bool look_through_longest(const Ground& ground, const Triangle& corners, VertexId eye, std::size_t limit);
   void add(VertexId v);
 

@@ -13,8 +13,7 @@
 //    vertex that a ray touches shades what lies behind it (closed shadows). Else all light passes it on one
 //    side, through one of the face's other edges, between the same rays.
 // 3. If x is in light it cuts it in two. The rays through x lie between its tangents to both chains. Through
-// ax
-//    falls what touches the left chain up to the tangent's point, then x, and the right chain from the
+//    ax falls what touches the left chain up to the tangent's point, then x, and the right chain from the
 //    tangent's point on; through xb the rest. So both chains fall apart, with that point in both parts. It is
 //    looked for from both ends at once: the work is that of the smaller part, n log n in all.
 // 4. The faces that uv crosses: their corners right of uv are in light, along the edges that cross uv. Of two

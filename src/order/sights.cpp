@@ -1,18 +1,16 @@
 // Does p see the open side uv of a valid triangle t = uvw?
 //
 // 1. The closed shadows of finitely many edges leave a point of uv in the light exactly if they leave an open
-// piece
-//    of it, so it is enough to follow open angles ("gaps") at p, which start as the angle from v to u and are
-//    cut at each vertex that they reach. Edges that end in p cast a shadow without breadth: they only cut.
+//    piece of it, so it is enough to follow open angles ("gaps") at p, which start as the angle from v to u
+//    and are cut at each vertex that they reach. Edges that end in p cast a shadow without breadth: they only
+//    cut.
 // 2. A gap passes from face to face. It is lost at an edge that blocks and lies before uv. It is proved when
-// it
-//    reaches an edge beyond uv: then nothing blocked it as far as uv, which no blocking edge meets.
+//    it reaches an edge beyond uv: then nothing blocked it as far as uv, which no blocking edge meets.
 // 3. Where an edge e lies: both ends on or left of uv: beyond. Both on or right of it: before. Else the line
-// of uv
-//    cuts e. If e cuts the open side uv itself, it does not block (t is valid), and the gap goes on; some
-//    rays of it are proved already, but the faces that follow lie beyond uv for them, and prove them soon. If
-//    e cuts the line outside the side, u and v lie on one side of the line of e: if p is there too, the gap
-//    reaches e beyond uv; if not, e lies between p and uv.
+//    of uv cuts e. If e cuts the open side uv itself, it does not block (t is valid), and the gap goes on;
+//    some rays of it are proved already, but the faces that follow lie beyond uv for them, and prove them
+//    soon. If e cuts the line outside the side, u and v lie on one side of the line of e: if p is there too,
+//    the gap reaches e beyond uv; if not, e lies between p and uv.
 // 4. Where gaps are many, the closed shadows of the edges before uv, cut to the view of uv, are sorted by
 //    their right ends, and followed from v as far as they join.
 #include "order/sights.hpp"

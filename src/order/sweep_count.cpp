@@ -145,8 +145,7 @@ std::span<const VertexId> SweepCount::count(const Ground& ground, const Triangle
         for (const HalfedgeId h : ground.tin().outgoing(corner)) all_.start_also(Tin::triangle_of(h));
       }
     }
-    while (all_.next()) {
-    }
+    all_.spread();
     all_edges_ = distinct(ground.tin(), all_.barriers());
   }
   for (std::size_t side = 0; side < 3; ++side) {

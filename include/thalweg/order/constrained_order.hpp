@@ -64,9 +64,9 @@ class OrderWorkspace {
 /// neighbours in sight; past 4096 faces O(f + n log n).
 /// SeesVtx [n log n]: with a limit up to 64 what all corners see, in the same way, and a look at the side for
 /// each vertex that only its ends see; else as SeesTriang, of those that see a corner.
-/// SeesTriang [n^2]: the light from each side, a face for each way along which it comes; past 4096 faces
-/// O(f + n log n), and O(n log n) at most for each vertex that sees a corner only past an edge that ends
-/// there, or none: no less is known to tell if it sees a side.
+/// SeesTriang [n^2]: the light from each side, a face for each way along which it comes; past 4096 faces (and
+/// 16 f, without a limit) O(f + n log n), and O(n log n) at most for each vertex that sees a corner only past
+/// an edge that ends there, or none: no less is known to tell if it sees a side.
 /// ConfEdge [n^2]: with a limit the light from the two shorter sides, and what each vertex there, up to 64 a
 /// side, sees through the longest; else O(f + n log n), and O(n log n) at most for each vertex that does not
 /// see its opposite corner. Limits of 0 and 1 cost SeesTriang what SeesVtx, and ConfEdge what SeesOpp costs.
@@ -120,15 +120,15 @@ class ConstrainedOrder {
   struct Parts;
   void count(const Triangle& triangle, OrderDefinition definition, std::size_t limit,
              OrderWorkspace& workspace) const;
-  struct FloodLimits {
+  struct Limits {
     std::size_t counted, faces;
   };
   bool count_by_flood(const Triangle& corners, TriangleId start, OrderDefinition definition,
-                      const FloodLimits& limits, OrderWorkspace& workspace) const;
+                      const Limits& limits, OrderWorkspace& workspace) const;
   [[nodiscard]] bool views_help(OrderDefinition definition, std::size_t limit) const;
   bool count_by_views(const Triangle& corners, OrderDefinition definition, std::size_t limit,
                       OrderWorkspace& workspace) const;
-  bool count_by_sides(const Triangle& corners, OrderDefinition definition, std::size_t limit,
+  bool count_by_sides(const Triangle& corners, OrderDefinition definition, const Limits& limits,
                       OrderWorkspace& workspace) const;
   void count_in_grid(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
 

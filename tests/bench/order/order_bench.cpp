@@ -134,14 +134,13 @@ Tin along_curve(const Tin& tin) {
   return renumber(tin, number, Progress()).tin;
 }
 
-// The orders of all triangles of a first-order triangulation, every second quadrilateral flipped (under Std
-// those of SeesOpp), and the triangulation of the same vertices and constraint edges: processor time of both,
-// on all threads together.
-void tin_orders(benchmark::State& state, Scene scene, OrderDefinition definition) {
+// The orders of all triangles of a triangulation: every second quadrilateral that is first-order under
+// `flipped` is flipped. And the triangulation of the same vertices and constraint edges: processor time of
+// both, on all threads together.
+void tin_orders(benchmark::State& state, Scene scene, OrderDefinition definition, OrderDefinition flipped) {
   const Tin delaunay = along_curve(ground(scene, static_cast<std::size_t>(state.range(0))));
   std::vector<HalfedgeId> flips;
   std::size_t i = 0;
-  const OrderDefinition flipped = definition == OrderDefinition::Std ? OrderDefinition::SeesOpp : definition;
   for (const Quadrilateral& q : find_quadrilaterals(delaunay, {.definition = flipped}, Progress())) {
     if (++i % 2 == 0) flips.push_back(q.diagonal);
   }
@@ -170,19 +169,28 @@ void tin_sizes(benchmark::internal::Benchmark* bench) {
   bench->RangeMultiplier(10)->Range(10000, 1000000)->Unit(benchmark::kMillisecond)->UseManualTime();
 }
 
-BENCHMARK_CAPTURE(tin_orders, random5_pathcon, Scene::Random5, OrderDefinition::Pathcon)->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, random5_sees_triang, Scene::Random5, OrderDefinition::SeesTriang)
+constexpr auto kPathcon = OrderDefinition::Pathcon;
+constexpr auto kSeesTriang = OrderDefinition::SeesTriang;
+constexpr auto kSeesVtx = OrderDefinition::SeesVtx;
+constexpr auto kConfEdge = OrderDefinition::ConfEdge;
+constexpr auto kSeesOpp = OrderDefinition::SeesOpp;
+BENCHMARK_CAPTURE(tin_orders, random5_pathcon, Scene::Random5, kPathcon, kPathcon)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_sees_triang, Scene::Random5, kSeesTriang, kSeesTriang)
     ->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, random5_sees_vtx, Scene::Random5, OrderDefinition::SeesVtx)->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, random5_conf_edge, Scene::Random5, OrderDefinition::ConfEdge)->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, random5_sees_opp, Scene::Random5, OrderDefinition::SeesOpp)->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, random5_std, Scene::Random5, OrderDefinition::Std)
+BENCHMARK_CAPTURE(tin_orders, random5_sees_vtx, Scene::Random5, kSeesVtx, kSeesVtx)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_conf_edge, Scene::Random5, kConfEdge, kConfEdge)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_sees_opp, Scene::Random5, kSeesOpp, kSeesOpp)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_higher_pathcon, Scene::Random5, kPathcon, kSeesOpp)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_higher_sees_triang, Scene::Random5, kSeesTriang, kSeesOpp)
+    ->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_higher_sees_vtx, Scene::Random5, kSeesVtx, kSeesOpp)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, random5_std, Scene::Random5, OrderDefinition::Std, kSeesOpp)
     ->RangeMultiplier(10)
     ->Range(10000, 100000)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();
-BENCHMARK_CAPTURE(tin_orders, lattice, Scene::Lattice, OrderDefinition::SeesOpp)->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, comb, Scene::Comb, OrderDefinition::SeesOpp)
+BENCHMARK_CAPTURE(tin_orders, lattice, Scene::Lattice, kSeesOpp, kSeesOpp)->Apply(tin_sizes);
+BENCHMARK_CAPTURE(tin_orders, comb, Scene::Comb, kSeesOpp, kSeesOpp)
     ->Arg(10000)
     ->Unit(benchmark::kMillisecond)
     ->UseManualTime();

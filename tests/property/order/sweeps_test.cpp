@@ -53,7 +53,7 @@ struct Counter {
     const TriangleId start =
         Tin::triangle_of(ground.face_in_angle(corners[0], corners[1], corners[2]).value());
     flood.start(ground, corners, start, detail::Barrier::BlockingEdges);
-    while (flood.next()) {
+    for (std::size_t faces = 1; !flood.spread(faces); faces *= 2) {
     }
     return start;
   }
@@ -61,18 +61,21 @@ struct Counter {
     const TriangleId start = flood_from(corners);
     return sorted(sweeps.count(ground, corners, start, definition, flood));
   }
-  // Light from sides, where it does not go far, must fall on the same, and stop as soon as there are more.
+  // Light from sides must fall on the same, stop as soon as there are more, and say where it goes too far.
   void expect_lit(const Triangle& corners, const std::vector<VertexId>& expected) {
-    const auto all = sides.lit(ground, corners, kUnlimited);
-    if (all) {
-      ASSERT_EQ(sorted(*all), expected);
+    const auto all = sides.lit(ground, corners, kUnlimited, kUnlimited);
+    ASSERT_TRUE(all);
+    ASSERT_EQ(sorted(*all), expected);
+    for (std::size_t faces = 1; faces < 64; faces *= 2) {
+      const auto near = sides.lit(ground, corners, kUnlimited, faces);
+      if (near) {
+        ASSERT_EQ(sorted(*near), expected);
+      }
     }
     for (std::size_t limit = 0; limit < 4; ++limit) {
-      const auto some = sides.lit(ground, corners, limit);
-      ASSERT_TRUE(some || !all);
-      if (some) {
-        ASSERT_EQ(some->size() > limit, expected.size() > limit);
-      }
+      const auto some = sides.lit(ground, corners, limit, kUnlimited);
+      ASSERT_TRUE(some);
+      ASSERT_EQ(some->size() > limit, expected.size() > limit);
     }
   }
   // Looks through sides, where they do not go far, must count the same, and stop as soon as there are more.

@@ -220,7 +220,17 @@ TEST(SceneLaws, Property2FailsForEmptyQuad) {
   EXPECT_EQ(order(file.triangles.at(0), Definition::EmptyQuad), 1);
 }
 
-// The largest order of the greedy triangles at the edge, as Corollary 1 asks.
+// Lemma 2, sees-3vtx is empty-quad, takes a simple polygon, and sights that stay in it.
+TEST(SceneLaws, Lemma2FailsOutsideSimplePolygons) {
+  for (const auto& [name, holds] :
+       {std::pair("sight-through-the-outside", true), std::pair("sight-through-the-outside-plane", false),
+        std::pair("lemma-2-hole", false)}) {
+    const ExpectedTriangle t = scene(name).triangles.at(0);
+    EXPECT_EQ(order(t, Definition::Sees3Vtx) == order(t, Definition::EmptyQuad), holds) << name;
+  }
+}
+
+// The largest order of the greedy triangles at the edge, which Lemma 3 bounds and Corollary 1 asks for.
 int corollary(const SceneFile& file, Edge e, Definition d) {
   const Oracle oracle(file.scene);
   int largest = 0;
@@ -231,7 +241,7 @@ int corollary(const SceneFile& file, Edge e, Definition d) {
   return largest;
 }
 
-TEST(SceneLaws, Corollary1AndItsFailures) {
+TEST(SceneLaws, Lemma3AndCorollary1WithTheirFailures) {
   struct Case {
     const char* name;
     Definition definition;
