@@ -36,10 +36,10 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Pencil::Position Pencil::position(const Side& side, VertexId x) const {
+Pencil::Position Pencil::position(Point2 from, Point2 to, VertexId x) const {
   const Point2 p = ground_->point(x);
-  const double dx = p.x - side.from.x, dy = p.y - side.from.y, ex = p.x - side.to.x, ey = p.y - side.to.y;
-  const double vx = side.to.x - side.from.x, vy = side.to.y - side.from.y;
+  const double dx = p.x - from.x, dy = p.y - from.y, ex = p.x - to.x, ey = p.y - to.y;
+  const double vx = to.x - from.x, vy = to.y - from.y;
   const double one = dx * ex, other = dy * ey, left = vx * dy, right = vy * dx;
   return {one + other, left - right, std::abs(one) + std::abs(other) + std::abs(left) + std::abs(right)};
 }
@@ -103,7 +103,19 @@ void Pencil::insert(const Beside& fresh, Side& side) const {
 void Pencil::begin(Side& side) const {
   side.nearest.clear();
   for (const VertexId x : side.vertices) {
-    if (const auto found = beside(side, x, position(side, x))) insert(*found, side);
+    side.positions.push_back(position(side.from, side.to, x));
+    if (const auto found = beside(side, x, side.positions.back())) insert(*found, side);
+  }
+}
+
+// The ends of the edge are at its borders' ends, too: their position is nothing.
+void Pencil::put_borders(const Side& side) {
+  const bool reversed = &side == &left_;
+  pending_.clear();
+  for (std::size_t i = 0; i < side.borders.size(); ++i) {
+    const Position near_u = i == 0 ? Position{} : side.positions[i - 1];
+    const Position near_v = i == side.positions.size() ? Position{} : side.positions[i];
+    pending_.push_back({side.borders[i], reversed ? near_v : near_u, reversed ? near_u : near_v});
   }
 }
 
@@ -120,7 +132,7 @@ bool Pencil::spread(Side& side, const Limit& limit, const Meet& meet) {
     const HalfedgeId entry = ground_->twin(over.edge);
     if (!entry.valid() || !side.met.insert(Tin::triangle_of(entry).value())) continue;
     const VertexId apex = ground_->apex(entry);
-    const Position at = position(side, apex);
+    const Position at = position(side.from, side.to, apex);
     const auto found = beside(side, apex, at);
     if (found && !meet(*found)) return false;
     pending_.push_back({Tin::next(entry), over.from, at});
@@ -134,10 +146,8 @@ bool Pencil::few_inside(Side& side, const Beside& corner) {
   side.later.clear();
   side.met.clear();
   side.beyond.clear();
-  pending_.clear();
   for (const TriangleId t : passed_) side.met.insert(t.value());
-  for (const HalfedgeId h : side.borders)
-    pending_.push_back({h, position(side, ground_->origin(h)), position(side, ground_->target(h))});
+  put_borders(side);
   std::size_t count = 0;
   const auto note = [&](const Beside& found) {
     return !inside(side.to, side.from, corner, found) || ++count <= most_;
@@ -264,6 +274,31 @@ bool Pencil::is_empty(std::span<const Beside> side, std::size_t place) const {
     const Point2 p = ground_->point(x.vertex);
     return orientation(v, w, p) >= 0 && orientation(w, u, p) >= 0;
   });
+}
+
+// The nearest of the known on a side is no nearer than the nearest of all; the circle through that one holds
+// what is inside on the other side, and more.
+bool Pencil::may_be_of_use(VertexId a, VertexId b, std::span<const VertexId> known) {
+  const Point2 from = ground_->point(a), to = ground_->point(b);
+  known_left_.clear();
+  known_right_.clear();
+  for (const VertexId x : known) {
+    if (x == a || x == b) continue;
+    const Position at = position(from, to, x);
+    const double across = std::abs(at.across), error = kRounding * at.size + kNoUnderflow;
+    if (across <= 2 * error) continue;
+    const double cotangent = at.along / across;
+    (at.across > 0 ? known_left_ : known_right_)
+        .push_back(cotangent + 2 * error * (1 + std::abs(cotangent)) / across);
+  }
+  const auto few = [&](const std::vector<double>& one, const std::vector<double>& other) {
+    if (one.empty() || other.size() <= most_) return true;
+    const double least = *std::min_element(one.begin(), one.end());
+    const auto inside =
+        std::count_if(other.begin(), other.end(), [&](double cotangent) { return cotangent < -least; });
+    return static_cast<std::size_t>(inside) <= most_;
+  };
+  return few(known_left_, known_right_) && few(known_right_, known_left_);
 }
 
 }  // namespace thalweg::detail

@@ -42,6 +42,9 @@ class Pencil {
   /// Whether that triangle has no other vertex in it or on it. Pre: look_at has said yes.
   [[nodiscard]] bool is_empty(std::span<const Beside> side, std::size_t place) const;
 
+  /// False only if the known vertices alone tell that look_at(a, b) would say no. Complexity: linear in them.
+  [[nodiscard]] bool may_be_of_use(VertexId a, VertexId b, std::span<const VertexId> known);
+
  private:
   /// Relative to the edge.
   struct Position {
@@ -57,8 +60,9 @@ class Pencil {
   /// What lies left of the edge, or of its reverse.
   struct Side {
     Point2 from, to;
-    std::vector<VertexId> vertices;   ///< of the faces that the edge passes
-    std::vector<HalfedgeId> borders;  ///< of these faces
+    std::vector<VertexId> vertices;   ///< of the faces that the edge passes, along it
+    std::vector<Position> positions;  ///< of these
+    std::vector<HalfedgeId> borders;  ///< of these faces, along the edge: one more
     std::vector<Beside> nearest;      ///< so far
     std::vector<Beside> beyond;       ///< others that were met within the first limit
     std::vector<Border> later;        ///< beyond it
@@ -67,6 +71,7 @@ class Pencil {
       from = at_from;
       to = at_to;
       vertices.clear();
+      positions.clear();
       borders.clear();
       nearest.clear();
     }
@@ -74,6 +79,7 @@ class Pencil {
 
   bool pass(VertexId u, VertexId v);
   void begin(Side& side) const;
+  void put_borders(const Side& side);
   [[nodiscard]] bool few_inside(Side& side, const Beside& corner);
   void complete(Side& side);
   template <class Limit, class Meet>
@@ -82,7 +88,7 @@ class Pencil {
   [[nodiscard]] std::optional<Beside> beside(const Side& side, VertexId x, const Position& at) const;
   [[nodiscard]] double square_of(HalfedgeId edge) const;
   [[nodiscard]] bool reaches(const Border& border, double cotangent) const;
-  [[nodiscard]] Position position(const Side& side, VertexId x) const;
+  [[nodiscard]] Position position(Point2 from, Point2 to, VertexId x) const;
   [[nodiscard]] bool nearer(const Side& side, const Beside& one, const Beside& other) const;
   [[nodiscard]] bool inside(Point2 from, Point2 to, const Beside& corner, const Beside& x) const;
   [[nodiscard]] bool is_left(std::span<const Beside> side) const {
@@ -95,6 +101,7 @@ class Pencil {
   Side left_, right_;
   std::vector<TriangleId> passed_;
   std::vector<Border> pending_;
+  std::vector<double> known_left_, known_right_;  ///< cotangents at most
 };
 
 }  // namespace thalweg::detail

@@ -12,9 +12,13 @@
 // 2. An edge goes if its triangle with the nearest vertex on some side has a larger order. At each that stays
 //    the empty triangles of order at most k are listed: their third corner is among the k + 1 nearest
 //    vertices. A triangle that is none of the ground has such an edge.
+// 3. Most edges that come up are of no use, and come up more than once. Those that meet for the first time in
+//    a block are tried on the vertices at hand: at order 3 of 10.1 edges a random point 2.5 are looked at,
+//    and 1.6 are of use.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "order/pencil.hpp"
+#include "order/stamped_map.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/useful_triangles.hpp>
@@ -47,7 +51,7 @@ class EdgeSearch {
       : ground_(ground),
         max_order_(max_order),
         progress_(progress),
-        pencils_([&ground, max_order] { return Pencil(ground, max_order); }) {}
+        searches_([&ground, max_order] { return Search{.pencil = Pencil(ground, max_order)}; }) {}
 
   std::vector<OrderTriangle> run() {
     std::vector<EdgeKey> now = start();
@@ -66,19 +70,29 @@ class EdgeSearch {
   }
 
  private:
+  /// Of one thread: memory is reused from block to block.
+  struct Search {
+    Pencil pencil;
+    detail::StampedMapOf<EdgeKey> seen = {};               ///< edges of the block
+    std::vector<EdgeKey> fresh = {};                       ///< of these what may be of use
+    std::vector<OrderTriangle> found = {};                 ///< in the block
+    std::vector<VertexId> known = {};                      ///< vertices near the edge
+    std::vector<VertexId> around = {}, around_other = {};  ///< neighbours of its ends, or of a vertex
+  };
+
   /// Edges that cut off one vertex, ascending.
   std::vector<EdgeKey> start() {
     std::vector<std::vector<EdgeKey>> edges((ground_.vertex_count() + kBlock - 1) / kBlock);
     for_each_block(ground_.vertex_count(), kBlock, progress_, {0, 0.1},
                    [&](std::size_t begin, std::size_t end) {
-                     std::vector<VertexId> around;
+                     Search& search = searches_.local();
                      for (std::size_t s = begin; s < end; ++s) {
-                       const bool closed = list_around(VertexId{s}, around);
-                       for (std::size_t i = 0; i < around.size(); ++i) {
-                         cut_off(VertexId{s}, around, i, closed, edges[begin / kBlock]);
-                       }
+                       const bool closed = list_around(VertexId{s}, search.around);
+                       list_known(VertexId{s}, search);
+                       for (std::size_t i = 0; i < search.around.size(); ++i)
+                         cut_off(VertexId{s}, i, closed, search);
                      }
-                     sort_once(edges[begin / kBlock]);
+                     edges[begin / kBlock] = take_fresh(search);
                    });
     return joined(edges);
   }
@@ -102,9 +116,22 @@ class EdgeSearch {
     }
   }
 
-  /// The edges from one of the neighbours of s that cross edges at s alone.
-  void cut_off(VertexId s, std::span<const VertexId> around, std::size_t i, bool closed,
-               std::vector<EdgeKey>& edges) const {
+  /// A vertex, its neighbours, and the vertices beyond the edges between these.
+  void list_known(VertexId s, Search& search) const {
+    search.known = search.around;
+    search.known.push_back(s);
+    for (const HalfedgeId h : ground_.outgoing(s)) {
+      const HalfedgeId across = ground_.twin(Tin::next(h));
+      if (across.valid()) search.known.push_back(ground_.apex(across));
+    }
+    std::sort(search.known.begin(), search.known.end());
+    search.known.erase(std::unique(search.known.begin(), search.known.end()), search.known.end());
+  }
+
+  /// The edges from one of the neighbours of s that cross edges at s alone. One that crosses a single edge
+  /// is found from both its ends; the smaller id has it.
+  void cut_off(VertexId s, std::size_t i, bool closed, Search& search) const {
+    const std::vector<VertexId>& around = search.around;
     const std::size_t count = around.size();
     const std::size_t reach = std::min(max_order_ + 1, (closed ? count : count - i) - 1);
     const Point2 at = ground_.point(s), x = ground_.point(around[i]);
@@ -112,11 +139,11 @@ class EdgeSearch {
       const VertexId other = around[(i + step) % count];
       const Point2 y = ground_.point(other);
       if (orientation(at, x, y) <= 0) return;
-      bool alone = true;
+      bool alone = step > 2 || s < around[(i + 1) % count];
       for (std::size_t between = 1; between < step && alone; ++between) {
         alone = orientation(x, y, ground_.point(around[(i + between) % count])) < 0;
       }
-      if (alone) edges.push_back(key_of(around[i], other));
+      if (alone) note(around[i], other, search);
     }
   }
 
@@ -126,15 +153,33 @@ class EdgeSearch {
     std::vector<std::vector<EdgeKey>> fresh(blocks);
     std::vector<std::vector<OrderTriangle>> found(blocks);
     for_each_block(edges.size(), kBlock, progress_, stretch, [&](std::size_t begin, std::size_t end) {
-      Pencil& pencil = pencils_.local();
+      Search& search = searches_.local();
+      for (std::size_t i = begin; i < end; ++i) search.seen.insert(edges[i]);
       for (std::size_t i = begin; i < end; ++i) {
-        const VertexId a{edges[i] >> 32U}, b{edges[i] & 0xffffffffU};
-        list(pencil, a, b, found[begin / kBlock], fresh[begin / kBlock]);
+        list(VertexId{edges[i] >> 32U}, VertexId{edges[i] & 0xffffffffU}, search);
       }
-      sort_once(fresh[begin / kBlock]);
+      found[begin / kBlock] = search.found;
+      search.found.clear();
+      fresh[begin / kBlock] = take_fresh(search);
     });
     std::move(found.begin(), found.end(), std::back_inserter(found_));
     return joined(fresh);
+  }
+
+  /// An edge to look at, unless that is known to be of no use. Pre: it is none of the ground.
+  static void note(VertexId a, VertexId b, Search& search) {
+    const EdgeKey key = key_of(a, b);
+    if (search.seen.insert(key) && search.pencil.may_be_of_use(a, b, search.known))
+      search.fresh.push_back(key);
+  }
+
+  /// Ascending; what was seen is forgotten.
+  static std::vector<EdgeKey> take_fresh(Search& search) {
+    std::sort(search.fresh.begin(), search.fresh.end());
+    std::vector<EdgeKey> fresh = search.fresh;
+    search.fresh.clear();
+    search.seen.clear();
+    return fresh;
   }
 
   static std::vector<EdgeKey> joined(std::vector<std::vector<EdgeKey>>& parts) {
@@ -151,14 +196,18 @@ class EdgeSearch {
     return all;
   }
 
-  static void sort_once(std::vector<EdgeKey>& edges) {
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  }
-
-  void list(Pencil& pencil, VertexId a, VertexId b, std::vector<OrderTriangle>& found,
-            std::vector<EdgeKey>& fresh) const {
+  void list(VertexId a, VertexId b, Search& search) const {
+    Pencil& pencil = search.pencil;
     if (!pencil.look_at(a, b)) return;
+    search.known.assign({a, b});
+    for (const std::span<const Pencil::Beside> side : {pencil.left(), pencil.right()}) {
+      for (const Pencil::Beside& x : side) search.known.push_back(x.vertex);
+    }
+    list_around(a, search.around);
+    list_around(b, search.around_other);
+    const auto is_new = [](VertexId c, const std::vector<VertexId>& around) {
+      return std::find(around.begin(), around.end(), c) == around.end();
+    };
     for (const std::span<const Pencil::Beside> side : {pencil.left(), pencil.right()}) {
       const bool left = side.data() == pencil.left().data();
       for (std::size_t i = 0; i < side.size(); ++i) {
@@ -167,9 +216,9 @@ class EdgeSearch {
         if (!order || !pencil.is_empty(side, i)) continue;
         Triangle corners{left ? a : b, left ? b : a, c};
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-        found.push_back({corners, static_cast<std::uint32_t>(*order)});
-        fresh.push_back(key_of(a, c));
-        fresh.push_back(key_of(b, c));
+        search.found.push_back({corners, static_cast<std::uint32_t>(*order)});
+        if (is_new(c, search.around)) note(a, c, search);
+        if (is_new(c, search.around_other)) note(b, c, search);
       }
     }
   }
@@ -200,7 +249,7 @@ class EdgeSearch {
   const Tin& ground_;
   std::size_t max_order_;
   Progress& progress_;
-  tbb::enumerable_thread_specific<Pencil> pencils_;
+  tbb::enumerable_thread_specific<Search> searches_;
   std::vector<std::vector<OrderTriangle>> found_;  ///< none of the ground
 };
 
