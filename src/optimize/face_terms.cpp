@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace thalweg {
 
@@ -71,18 +72,22 @@ FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& pr
   for (std::uint32_t t = 0; t < faces.triangles.size(); ++t) {
     for (const std::uint32_t side : faces.sides[t]) sides.triangles.items[fill[side]++] = t;
   }
-  std::vector<std::uint32_t> fresh;  // edges that the Delaunay triangulation does not have
+  struct Fresh {
+    Point2 low, high;  // ends, by coordinates
+    std::uint32_t edge;
+  };
+  std::vector<Fresh> fresh;  // edges that the Delaunay triangulation does not have
   for (std::uint32_t e = 0; e < faces.edges.size(); ++e) {
-    if (!faces.edges[e].ground.valid()) fresh.push_back(e);
+    if (faces.edges[e].ground.valid()) continue;
+    const auto ends = std::minmax({tin.point(faces.edges[e].a), tin.point(faces.edges[e].b)});
+    fresh.push_back({ends.first, ends.second, e});
   }
-  tbb::parallel_sort(fresh.begin(), fresh.end(), [&](std::uint32_t e, std::uint32_t f) {
-    const auto ends = [&](std::uint32_t edge) {
-      return std::minmax({tin.point(faces.edges[edge].a), tin.point(faces.edges[edge].b)});
-    };
-    return ends(e) < ends(f);
+  tbb::parallel_sort(fresh.begin(), fresh.end(), [](const Fresh& one, const Fresh& other) {
+    return std::tie(one.low, one.high) < std::tie(other.low, other.high);
   });
   sides.tie.assign(faces.edges.size(), 0);
-  for (std::size_t rank = 0; rank < fresh.size(); ++rank) sides.tie[fresh[rank]] = tie_of(rank, fresh.size());
+  for (std::size_t rank = 0; rank < fresh.size(); ++rank)
+    sides.tie[fresh[rank].edge] = tie_of(rank, fresh.size());
   progress.check();
   return sides;
 }
