@@ -8,6 +8,8 @@
 //    the way is the first by (x, y) of those with the rank below, so ids do not matter.
 #include "terrain/flats.hpp"
 
+#include "base/parallel.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -21,12 +23,14 @@ constexpr std::uint32_t kWaiting = 0xffffffffU;  // rank of what is on the plate
 class Resolver {
  public:
   Resolver(const FlowMesh& mesh, std::span<const VertexId> outlets, std::span<const HalfedgeId> rim,
-           std::span<VertexStep> steps)
-      : mesh_(mesh), steps_(steps), drained_(mesh.vertex_count(), 0) {
+           std::span<VertexStep> steps, const Progress& progress)
+      : mesh_(mesh), steps_(steps), drained_(mesh.vertex_count()) {
     flats_.rank.assign(mesh.vertex_count(), 0);
     flats_.pit.assign(mesh.vertex_count(), kNoPit);
     flats_.on_rim.assign(mesh.vertex_count(), 0);
-    for (std::size_t v = 0; v < steps.size(); ++v) drained_[v] = steps[v].squared_slope >= 0 ? 1 : 0;
+    for_each_block(steps.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) drained_[v] = steps[v].squared_slope >= 0 ? 1 : 0;
+    });
     for (const VertexId v : outlets) drained_[v.index()] = 1;
     for (const HalfedgeId h : rim) {
       flats_.on_rim[mesh.origin(h).index()] = flats_.on_rim[mesh.target(h).index()] = 1;
@@ -124,7 +128,7 @@ class Resolver {
   const FlowMesh& mesh_;
   std::span<VertexStep> steps_;
   Flats flats_;
-  LargeVector<std::uint8_t> drained_;
+  RawVector<std::uint8_t> drained_;
   std::vector<VertexId> plateau_, front_, reached_;
 };
 
@@ -132,7 +136,7 @@ class Resolver {
 
 Flats resolve_flats(const FlowMesh& mesh, std::span<const VertexId> outlets, std::span<const HalfedgeId> rim,
                     std::span<VertexStep> steps, const Progress& progress) {
-  return Resolver(mesh, outlets, rim, steps).run(progress);
+  return Resolver(mesh, outlets, rim, steps, progress).run(progress);
 }
 
 }  // namespace thalweg

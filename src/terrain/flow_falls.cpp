@@ -6,10 +6,12 @@
 //    the squares of the slopes of the triangle and its sides. As in the scalar functions, of which these are
 //    copies, all operations are rounded correctly and none is fused, so the bits are the same.
 // 2. Triangles with a side that is not sure, or level, are looked at one by one, by the exact predicate.
-// 3. The steepest way down from each vertex is chosen in the order of triangles: an edge, or the line of flow
-//    of a triangle over both of whose sides at the vertex water enters. Ties: the end that is first by (x,
-//    y).
-#include "base/ordered_blocks.hpp"
+// 3. The steepest way down from each vertex is chosen: an edge, or the line of flow of a triangle over both
+// of
+//    whose sides at the vertex water enters. Ties: the end that is first by (x, y); so the order in which
+//    ways are offered does not matter. Triangles come by their smallest vertex: each part of them chooses for
+//    the vertices that are smallest in it, and keeps what it has for others until all parts are done.
+#include "base/parallel.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/geometry/slope.hpp>
@@ -22,16 +24,16 @@ namespace thalweg {
 
 namespace {
 
-constexpr std::size_t kBlock = 4096;
-constexpr std::size_t kBatch = 128;  // columns of a page each would share the cache's sets
-constexpr double kNone = -2;         // a squared slope that is less than that of no step
+constexpr std::size_t kPart = 1U << 15U;  // of triangles: few of them have vertices of another part
+constexpr std::size_t kBatch = 128;       // columns of a page each would share the cache's sets
+constexpr double kNone = -2;              // a squared slope that is less than that of no step
 using Column = std::array<double, kBatch>;
 
 /// Triangles with corners a, b, c; sides are ab, bc, ca.
 struct Batch {
   std::array<Column, 3> x, y, z;
   std::array<Column, 3> fall;  ///< over each side: positive out, negative in, 0 not sure
-  Column split_at;
+  Column split_at, area;
   std::array<Column, 3> down;  ///< squared slope of each side that falls, from its origin; else kNone
   Column slope;                ///< squared
 };
@@ -52,7 +54,7 @@ inline double squared_slope(const Corner& a, const Corner& b) {
   return z * z / (x * x + y * y);
 }
 
-// Never at an end, whatever rounding says: then both sides have pieces, and lines end where others begin.
+// Never at an end, whatever rounding says: then both sides have ground, and lines end where others begin.
 inline double inner_share(double share) {
   constexpr double kLeast = 0x1p-50;
   const double bounded = share > 1 ? 1 : share < 0 ? 0 : share;
@@ -89,6 +91,7 @@ void measure(Batch& batch) {
     const double x1 = b.x - a.x, y1 = b.y - a.y, z1 = b.z - a.z;
     const double x2 = c.x - a.x, y2 = c.y - a.y, z2 = c.z - a.z;
     const double gx = z1 * y2 - z2 * y1, gy = x1 * z2 - x2 * z1, area = x1 * y2 - x2 * y1;
+    batch.area[i] = area / 2;
     batch.slope[i] = (gx * gx + gy * gy) / (area * area);
     // Of three sides one is In and two are not, or the reverse: the odd one is split.
     const bool ab = batch.fall[0][i] < 0, bc = batch.fall[1][i] < 0, ca = batch.fall[2][i] < 0;
@@ -103,9 +106,16 @@ void measure(Batch& batch) {
   for (std::size_t i = 0; i < kBatch; ++i) batch.split_at[i] = inner_share(batch.split_at[i]);
 }
 
-/// What a block of triangles found.
-struct Slot {
-  std::vector<std::array<double, 4>> slopes;  ///< by triangle: `down` of its sides, and its own
+/// A way down from a vertex.
+struct Way {
+  VertexId from;
+  VertexStep step;
+};
+
+/// What a part of the triangles found.
+struct Part {
+  VertexId begin, end;    ///< the vertices for which it chooses
+  std::vector<Way> ways;  ///< of others
   std::vector<HalfedgeId> rim;
 };
 
@@ -113,35 +123,41 @@ class FallFinder {
  public:
   explicit FallFinder(FlowGraph& graph) : graph_(graph), mesh_(graph.mesh) {
     graph_.shape.resize(mesh_.triangle_count());
-    graph_.split_at.resize(mesh_.triangle_count());
+    graph_.strips.resize(mesh_.triangle_count());
     graph_.step.resize(mesh_.vertex_count());
   }
 
   void run(const Progress& progress) {
-    for_each_block_in_order<Slot>(
-        mesh_.triangle_count(), kBlock, progress,
-        [&](std::size_t begin, std::size_t end, Slot& slot) {
-          Batch batch{};
-          slot.slopes.resize(end - begin);
-          slot.rim.clear();
-          for (std::size_t t = begin; t < end; t += kBatch) {
-            const std::size_t stop = std::min(end, t + kBatch);
-            load(t, stop, batch);
-            measure(batch);
-            store(t, stop, batch, &slot.slopes[t - begin]);
-          }
-          for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
-            if (mesh_.on_rim(HalfedgeId{h})) slot.rim.push_back(HalfedgeId{h});
-          }
-        },
-        [&](std::size_t begin, std::size_t end, const Slot& slot) {
-          for (std::size_t t = begin; t < end; ++t) offer(TriangleId{t}, slot.slopes[t - begin]);
-          graph_.rim.insert(graph_.rim.end(), slot.rim.begin(), slot.rim.end());
-        });
+    const std::size_t count = mesh_.triangle_count();
+    std::vector<Part> parts((count + kPart - 1) / kPart);
+    for_each_block(count, kPart, progress, [&](std::size_t begin, std::size_t end) {
+      Part& part = parts[begin / kPart];
+      part.begin = begin == 0 ? VertexId{std::size_t{0}} : smallest_vertex(TriangleId{begin});
+      part.end = end == count ? VertexId{mesh_.vertex_count()} : smallest_vertex(TriangleId{end});
+      Batch batch{};
+      for (std::size_t t = begin; t < end; t += kBatch) {
+        const std::size_t stop = std::min(end, t + kBatch);
+        load(t, stop, batch);
+        measure(batch);
+        store(t, stop, batch, part);
+      }
+      for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
+        if (mesh_.on_rim(HalfedgeId{h})) part.rim.push_back(HalfedgeId{h});
+      }
+    });
+    for (const Part& part : parts) {
+      for (const Way& way : part.ways) choose(way.from, way.step);
+      graph_.rim.insert(graph_.rim.end(), part.rim.begin(), part.rim.end());
+    }
     for (const HalfedgeId h : graph_.rim) offer_upwards(h);
   }
 
  private:
+  [[nodiscard]] VertexId smallest_vertex(TriangleId t) const {
+    const Triangle& c = mesh_.triangle(t);
+    return std::min({c[0], c[1], c[2]});
+  }
+
   void load(std::size_t begin, std::size_t end, Batch& batch) const {
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& corners = mesh_.triangle(TriangleId{t});
@@ -154,18 +170,20 @@ class FallFinder {
     }
   }
 
-  void store(std::size_t begin, std::size_t end, const Batch& batch, std::array<double, 4>* slopes) {
+  void store(std::size_t begin, std::size_t end, const Batch& batch, Part& part) {
     for (std::size_t t = begin; t < end; ++t) {
       const std::size_t i = t - begin;
       const double ab = batch.fall[0][i], bc = batch.fall[1][i], ca = batch.fall[2][i];
       if ((ab != 0) & (bc != 0) & (ca != 0)) {
         const auto over = [](double fall) { return fall < 0 ? Fall::In : Fall::Out; };
         graph_.shape[t] = shape_of({over(ab), over(bc), over(ca)});
-        graph_.split_at[t] = batch.split_at[i];
+        graph_.strips[t].at = batch.split_at[i];
       } else {
         look_at(TriangleId{t});
       }
-      slopes[i] = {batch.down[0][i], batch.down[1][i], batch.down[2][i], batch.slope[i]};
+      graph_.strips[t].area = batch.area[i];
+      graph_.strips[t].shape = graph_.shape[t];
+      offer(TriangleId{t}, batch, i, part);
     }
   }
 
@@ -185,6 +203,7 @@ class FallFinder {
 
   void look_at(TriangleId t) {
     const Triangle& c = mesh_.triangle(t);
+    graph_.shape[t.index()] = {};
     if (mesh_.height(c[0]) == mesh_.height(c[1]) && mesh_.height(c[1]) == mesh_.height(c[2])) return;
     std::array<Fall, 3> fall{};
     for (std::size_t side = 0; side < 3; ++side) {
@@ -201,18 +220,26 @@ class FallFinder {
     } else if (strip.corner_is_low && graph_.fall(Tin::previous(strip.split)) == Fall::Along) {
       strip.at = 0;
     }
-    graph_.split_at[t.index()] = strip.at;
+    graph_.strips[t.index()].at = strip.at;
   }
 
-  void offer(TriangleId t, const std::array<double, 4>& slopes) {
+  void offer(TriangleId t, const Batch& batch, std::size_t i, Part& part) {
     const Triangle& c = mesh_.triangle(t);
+    const auto choose_or_keep = [&](VertexId v, const VertexStep& step) {
+      if (v >= part.begin && v < part.end) {
+        choose(v, step);
+      } else if (step.squared_slope >= 0) {
+        part.ways.push_back({v, step});
+      }
+    };
     for (std::size_t side = 0; side < 3; ++side) {
-      choose(c[side], {slopes[side], Tin::halfedge(t, side), VertexStep::Kind::Edge});
+      choose_or_keep(c[side], {batch.down[side][i], Tin::halfedge(t, side), VertexStep::Kind::Edge});
     }
     const TriangleShape shape = graph_.shape[t.index()];
     if (shape.level() || shape.corner_is_low != 0) return;
     const HalfedgeId across = Tin::halfedge(t, shape.split);
-    choose(c[shape.split == 0 ? 2 : shape.split - 1U], {slopes[3], across, VertexStep::Kind::Cross});
+    choose_or_keep(c[shape.split == 0 ? 2 : shape.split - 1U],
+                   {batch.slope[i], across, VertexStep::Kind::Cross});
   }
 
   // What falls against the direction of its only halfedge.

@@ -6,10 +6,10 @@
 #include "base/large_pages.hpp"
 #include "terrain/flats.hpp"
 #include "terrain/flow_mesh.hpp"
-#include "terrain/flow_piece.hpp"
 
 #include <thalweg/terrain/surface_flow.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -18,23 +18,12 @@
 
 namespace thalweg {
 
+/// What water comes to first: a channel, by its number, or a vertex; one number for all.
+using FlowNode = std::uint32_t;
+constexpr FlowNode kNoNode = std::numeric_limits<FlowNode>::max();
+
 /// How a triangle falls across its side.
 enum class Fall : std::uint8_t { Level = 0, In = 1, Out = 2, Along = 3 };
-
-/// Where the water on a side leads: to one node, or by pieces, of which this is the index of the first.
-class FlowTarget {
- public:
-  FlowTarget() = default;
-  static FlowTarget node(FlowNode node) { return FlowTarget(node); }
-  static FlowTarget pieces(std::uint32_t first) { return FlowTarget(first | kMany); }
-  [[nodiscard]] bool many() const { return (value_ & kMany) != 0; }
-  [[nodiscard]] std::uint32_t index() const { return value_ & ~kMany; }
-
- private:
-  static constexpr std::uint32_t kMany = 1U << 31U;
-  explicit FlowTarget(std::uint32_t value) : value_(value) {}
-  std::uint32_t value_ = 0;
-};
 
 /// How a triangle falls, and how flow divides in it: see Strip.
 struct TriangleShape {
@@ -53,6 +42,16 @@ struct Strip {
   bool corner_is_low = true;  ///< the corner is where two outflow sides meet (else: two inflow sides)
 };
 
+/// What it takes to follow water upwards through a triangle, in half a cache line.
+struct TriangleStrip {
+  double at = 0.5;  ///< of its strip; of a level triangle of no meaning
+  double area = 0;
+  /// The sides of other triangles over which water comes in: over the side that is split; or over the one
+  /// after it and the one before it. Invalid: none.
+  std::array<HalfedgeId, 2> up;
+  TriangleShape shape;
+};
+
 /// An edge along which water runs.
 struct Channel {
   HalfedgeId edge;  ///< the lower of its two
@@ -64,24 +63,26 @@ struct FlowGraph {
   const Tin& tin;
   FlowMesh mesh;
   Flats flats;
-  LargeVector<TriangleShape> shape;         ///< by triangle
-  LargeVector<double> split_at;             ///< by triangle that is not level: `at` of its strip
-  LargeVector<std::uint8_t> channel_sides;  ///< by triangle: a bit a side; both triangles of an edge agree
+  RawVector<TriangleShape> shape;         ///< by triangle
+  RawVector<TriangleStrip> strips;        ///< by triangle
+  RawVector<std::uint8_t> channel_sides;  ///< by triangle: a bit a side; both triangles of an edge agree
+  /// By triangle: a bit a side that stands for an edge along which grounds may meet: the rim, ridges, beside
+  /// level triangles; not where all water goes on, or both sides drain into a channel.
+  RawVector<std::uint8_t> meeting_sides;
   /// By number: those that the falls make, by halfedge, then those that break cycles.
-  LargeVector<Channel> channels;
+  RawVector<Channel> channels;
   std::size_t broken_cycles = 0;
-  LargeVector<FlowTarget> target;  ///< by halfedge with Fall::In; by one that drains into a channel: that
-  PieceStore pieces;
+  /// By halfedge. Of one that drains into a channel: that. Else, with Fall::In: what water comes to at its
+  /// origin; with Fall::Out in a triangle whose corner is low: what water over it comes to at that corner.
+  RawVector<FlowNode> target;
   LargeVector<VertexStep> step;         ///< by vertex
   LargeVector<FlowNode> next;           ///< by vertex: what its water comes to first, kNoNode: see sink
   LargeVector<std::uint32_t> sink;      ///< by vertex
   std::vector<HalfedgeId> rim;          ///< halfedges without a twin
   LargeVector<std::uint32_t> rim_sink;  ///< by vertex on the rim: of what leaves there
   std::vector<Sink> sinks;
-  LargeVector<std::uint32_t> sink_of_node;
-  LargeVector<double> ground;            ///< by node: the area of the ground whose water comes to it first
-  LargeVector<std::uint32_t> only_sink;  ///< by triangle: of all its water, or kSeveralSinks
-  static constexpr std::uint32_t kSeveralSinks = SinkId::kInvalid - 1;
+  RawVector<std::uint32_t> sink_of_node;
+  RawVector<double> ground;  ///< by node: the area of the ground whose water comes to it first
 
   FlowGraph(const Tin& t, const Progress& progress) : tin(t), mesh(t, progress) {}
 
@@ -105,8 +106,10 @@ struct FlowGraph {
     return channels[node < first_vertex() ? node : node - mesh.vertex_count()];
   }
   [[nodiscard]] FlowNode node_of_channel(HalfedgeId h) const {
-    return target[(drains(h) ? h : mesh.twin(h)).index()].index();
+    return target[(drains(h) ? h : mesh.twin(h)).index()];
   }
+  /// True if water runs over h out of its triangle into the next one.
+  [[nodiscard]] bool hands_on(HalfedgeId h) const { return fall(h) == Fall::Out && !is_channel(h); }
   /// Of two vertices of one edge that to which water runs along it.
   [[nodiscard]] VertexId lower(VertexId a, VertexId b) const;
   [[nodiscard]] VertexId low_end(HalfedgeId h) const { return lower(mesh.origin(h), mesh.target(h)); }
@@ -120,28 +123,19 @@ struct FlowGraph {
   /// How flow divides in a triangle. Pre: it is not level.
   [[nodiscard]] Strip strip_of(TriangleId t) const {
     const TriangleShape at = shape[t.index()];
-    return {Tin::halfedge(t, at.split), split_at[t.index()], at.corner_is_low != 0};
+    return {Tin::halfedge(t, at.split), strips[t.index()].at, at.corner_is_low != 0};
   }
   /// The line of flow through a point of a triangle, as where it would meet `split`'s line.
   [[nodiscard]] double share_of(TriangleId t, const Strip& strip, Point2 p) const;
-  /// What runs over h out of its triangle comes to; shares run along h's twin. Pre: drains(h).
-  [[nodiscard]] FlowTarget beyond(HalfedgeId h) const {
-    return target[(is_channel(h) ? h : mesh.twin(h)).index()];
-  }
-  /// The pieces of a target, of which `single` is filled where one has to be made.
-  [[nodiscard]] const FlowPiece* pieces_of(FlowTarget t, FlowPiece& single) const {
-    if (t.many()) return pieces.at(t.index());
-    single = {.end = 1, .node = t.index() & kNodeBits, .last = 1, .from = FlowPiece::kFromCorner};
-    return &single;
-  }
 };
 
 /// The parts of a FlowGraph, in this order.
 void find_falls(FlowGraph& graph, const Progress& progress);
 void find_channels(FlowGraph& graph, const Progress& progress);
-void find_pieces(FlowGraph& graph, const Progress& progress);
+void break_cycles(FlowGraph& graph, const Progress& progress);
+void sweep_grounds(FlowGraph& graph, const Progress& progress);
 void find_steps(FlowGraph& graph, const Progress& progress);
 void find_sinks(FlowGraph& graph, std::span<const VertexId> outlets);
-void measure_grounds(FlowGraph& graph, const Progress& progress);
+void add_up_sinks(FlowGraph& graph, const Progress& progress);
 
 }  // namespace thalweg

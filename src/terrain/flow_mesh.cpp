@@ -77,7 +77,7 @@ void FlowMesh::number_vertices(const Progress& progress) {
 
 void FlowMesh::number_triangles(const Progress& progress) {
   const std::size_t count = tin_.triangle_count();
-  LargeVector<std::uint32_t> smallest(count);
+  RawVector<std::uint32_t> smallest(count);
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& c = tin_.triangle(TriangleId{t});
@@ -85,15 +85,22 @@ void FlowMesh::number_triangles(const Progress& progress) {
     }
   });
   std::vector<std::uint32_t> next(tin_.vertex_count() + 1, 0);
-  for (const std::uint32_t v : smallest) ++next[v + 1];
+  const auto for_each_in_ranges = [&](const auto& body) {
+    for_each_range(tin_.vertex_count(), progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = 0; t < count; ++t) {
+        if (smallest[t] >= begin && smallest[t] < end) body(t);
+      }
+    });
+  };
+  for_each_in_ranges([&](std::size_t t) { ++next[smallest[t] + 1]; });
   for (std::size_t v = 0; v < tin_.vertex_count(); ++v) next[v + 1] += next[v];
   given_triangle_.resize(count);
   own_triangle_.resize(count);
-  for (std::size_t t = 0; t < count; ++t) {
+  for_each_in_ranges([&](std::size_t t) {
     const TriangleId place{next[smallest[t]]++};
     own_triangle_[t] = place;
     given_triangle_[place.index()] = TriangleId{t};
-  }
+  });
 }
 
 void FlowMesh::link_triangles(const Progress& progress) {

@@ -89,12 +89,12 @@ class FlowMesh {
   std::span<const double> heights_;
   std::span<const Triangle> triangles_;
   std::span<const HalfedgeId> twins_;
-  LargeVector<VertexId> given_vertex_, own_vertex_;
-  LargeVector<TriangleId> given_triangle_, own_triangle_;
-  LargeVector<Point2> moved_points_;
-  LargeVector<double> moved_heights_;
-  LargeVector<Triangle> moved_triangles_;
-  LargeVector<HalfedgeId> moved_twins_;
+  RawVector<VertexId> given_vertex_, own_vertex_;
+  RawVector<TriangleId> given_triangle_, own_triangle_;
+  RawVector<Point2> moved_points_;
+  RawVector<double> moved_heights_;
+  RawVector<Triangle> moved_triangles_;
+  RawVector<HalfedgeId> moved_twins_;
 };
 
 }  // namespace thalweg

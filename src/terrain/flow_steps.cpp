@@ -1,7 +1,7 @@
 // Where the water of each vertex goes, and where it ends.
 //
 // 1. On a plateau: as resolve_flats says. Else the steepest way down that find_falls found. If it crosses a
-//    triangle, find_pieces has told what the line comes to.
+//    triangle, sweep_grounds has told what the line comes to.
 // 2. Rounding could name something that is not lower where all is level but for the last digits; then the
 //    lowest neighbour is next. So from each vertex the next one is lower, or of smaller rank, and chains end.
 // 3. The rim by itself: runs of level rim edges, and the rim vertices of one boundary pit, are one; each

@@ -1,5 +1,6 @@
 // The network: channels and vertices are a forest (each sends its water to one other), so areas and orders
 // are added up from the leaves down, in one pass over nodes that wait for no other.
+#include "base/parallel.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/terrain/network.hpp>
@@ -24,6 +25,7 @@ class Accumulator {
       : graph_(graph),
         spilling_(spilling),
         min_area_(min_area),
+        below_(graph.node_count()),
         area_(graph.ground),
         waiting_(graph.node_count(), 0),
         highest_(graph.node_count(), 0),
@@ -31,15 +33,18 @@ class Accumulator {
 
   void run(Progress& progress) {
     const auto count = static_cast<FlowNode>(graph_.node_count());
-    for (FlowNode node = 0; node < count; ++node) {
-      if (const FlowNode next = below(node); next != kNoNode) ++waiting_[next];
+    for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) below_[i] = below(static_cast<FlowNode>(i));
+    });
+    for (const FlowNode next : below_) {
+      if (next != kNoNode) ++waiting_[next];
     }
     progress.advance(0.3);
     for (FlowNode node = 0; node < count; ++node) {
       if (waiting_[node] != 0) continue;
       if (node % (1U << 16U) == 0) progress.check();
       for (FlowNode at = node; at != kNoNode;) {
-        const FlowNode next = below(at);
+        const FlowNode next = below_[at];
         settle(at);
         waiting_[at] = kSettled;
         if (next == kNoNode) break;
@@ -55,6 +60,7 @@ class Accumulator {
 
  private:
   static constexpr std::uint32_t kSettled = 0xffffffffU;
+  static constexpr std::size_t kBlock = 8192;
 
   [[nodiscard]] FlowNode below(FlowNode node) const {
     if (graph_.is_vertex(node)) return below(graph_.vertex_of(node));
@@ -90,7 +96,8 @@ class Accumulator {
   const FlowGraph& graph_;
   const Spilling& spilling_;
   double min_area_;
-  LargeVector<double> area_;
+  RawVector<FlowNode> below_;  // by node: what it sends its water to
+  RawVector<double> area_;
   LargeVector<std::uint32_t> waiting_;
   LargeVector<std::uint8_t> highest_, how_often_;
 };

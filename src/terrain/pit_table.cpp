@@ -147,12 +147,13 @@ class Tabulator {
     return is_before(bottom_[x - 1], bottom_[y - 1]);
   }
 
-  // Edges on the rim are outside.
+  // Edges on the rim are outside. Of those between two basins in one block of triangles most are left out.
   [[nodiscard]] LargeVector<Pass> list_passes(const Progress& progress) const {
     LargeVector<Pass> passes;
-    passes.reserve(mesh_.vertex_count());
+    passes.reserve(mesh_.vertex_count() / 4);
     const auto make = [&](std::size_t begin, std::size_t end, std::vector<Pass>& found) {
       found.clear();
+      std::array<std::uint32_t, 256> latest{};  // pass of two basins, by a mix of their numbers
       for (std::size_t t = begin; t < end; ++t) {
         const Triangle& c = mesh_.triangle(TriangleId{t});
         const std::array<std::uint32_t, 3> basin = {basin_[c[0].index()], basin_[c[1].index()],
@@ -162,7 +163,14 @@ class Tabulator {
           if (basin[i] == basin[j] || c[j] < c[i]) continue;  // of the two triangles beside an edge, one
           const auto [least, most] = std::minmax(basin[i], basin[j]);
           const auto [low, high] = is_before(c[i], c[j]) ? std::pair(c[i], c[j]) : std::pair(c[j], c[i]);
-          found.push_back({least, most, high, low});
+          const Pass pass{least, most, high, low};
+          std::uint32_t& known = latest[(least + 31 * most) % latest.size()];
+          if (known < found.size() && found[known].basin == least && found[known].other == most) {
+            if (is_before(pass, found[known])) found[known] = pass;
+          } else {
+            known = static_cast<std::uint32_t>(found.size());
+            found.push_back(pass);
+          }
         }
       }
     };

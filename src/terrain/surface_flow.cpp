@@ -1,7 +1,7 @@
 // The flow of a TIN, put together, and paths on it.
 //
-// A path is a walk over the same shares by which pieces are mapped, so it comes to the channel that the
-// pieces name, but for points nearer to a divide than rounding.
+// A path is a walk over the same shares by which strips are followed upwards, so it comes to the channel to
+// whose ground it belongs, but for points nearer to a divide than rounding.
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -123,7 +123,7 @@ class Walk {
         arrive(graph_.neighbour(vertex_, step));
         return true;
       case VertexStep::Kind::Cross:
-        reach(step.edge, graph_.split_at[Tin::triangle_of(step.edge).index()]);
+        reach(step.edge, graph_.strips[Tin::triangle_of(step.edge).index()].at);
         return true;
       case VertexStep::Kind::Leave:
         path_.sink = SinkId{graph_.rim_sink[vertex_.index()]};
@@ -165,14 +165,15 @@ SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets,
   for (const VertexId v : given) graph.step[v.index()] = {};
   graph.flats = resolve_flats(graph.mesh, given, graph.rim, graph.step, progress);
   find_channels(graph, progress);
-  find_pieces(graph, progress);
+  break_cycles(graph, progress);
+  sweep_grounds(graph, progress);
   find_steps(graph, progress);
   for (const VertexId v : stations) {
     given.push_back(graph.mesh.own(v));
     graph.step[given.back().index()] = {};
   }
   find_sinks(graph, given);
-  measure_grounds(graph, progress);
+  add_up_sinks(graph, progress);
   progress.advance(1);
 }
 
