@@ -2,11 +2,13 @@
 
 #include "fuzz/target.hpp"
 
+#include <thalweg/geodesy/metric_frame.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/verify/verify.hpp>
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 namespace thalweg::fuzz {
 
@@ -36,6 +38,20 @@ verify::Claims claims_of(const Report& report) {
   return claims;
 }
 
+/// The written coordinates without a jump at the antimeridian; none in a planar CRS.
+std::vector<Point2> continuous_of(const BuiltTin& built) {
+  std::vector<Point2> lonlat;
+  if (!built.crs.geographic) return lonlat;
+  const CrsInfo& crs = built.crs;
+  const auto frame = MetricFrame::from_proj_string(built.report.crs.metric_projection,
+                                                   {crs.equatorial_radius_m, crs.flattening});
+  for (const Point2 p : built.written) {
+    lonlat.push_back(
+        frame.continuous({p.x * crs.degrees_per_unit + crs.prime_meridian_deg, p.y * crs.degrees_per_unit}));
+  }
+  return lonlat;
+}
+
 }  // namespace
 
 void check_built(const BuiltTin& built, OrderDefinition definition) {
@@ -44,9 +60,11 @@ void check_built(const BuiltTin& built, OrderDefinition definition) {
   }
   const Report& report = built.report;
   const auto constraints = built.tin.constraint_edges();
+  const std::vector<Point2> continuous = continuous_of(built);
   const verify::Subject subject{
       .points = built.tin.points(),
       .written = built.written,
+      .continuous = continuous,
       .heights = built.tin.heights(),
       .triangles = built.tin.triangles(),
       .constraints = constraints,
