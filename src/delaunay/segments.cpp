@@ -3,8 +3,9 @@
 //
 // Cell against segment: with d = b - a and h the cell's half sides, the line meets the closed cell about c if
 // and only if |cross(d, c - a)| <= h.x |d.y| + h.y |d.x|. If c's projection is inside the segment by more
-// than (h.x |d.x| + h.y |d.y|) / |d|, the line's part in the cell is part of the segment. What is too close
-// to call, or near an end, is clipped exactly: parameters t with 0 <= t <= 1, low <= a + t d < high.
+// than (h.x |d.x| + h.y |d.y|) / |d|, the line's part in the cell is part of the segment. A segment with an
+// end inside the cell meets it. What is left is clipped exactly: parameters t with 0 <= t <= 1 and
+// low <= a + t d < high.
 #include "segments.hpp"
 
 #include <CGAL/Exact_rational.h>
@@ -73,6 +74,11 @@ Clip clip_to_cell(const Segment& s, const Cell& cell) {
   clip_axis(clip, s.a.x, s.b.x, cell.centre.x, cell.half_x);
   clip_axis(clip, s.a.y, s.b.y, cell.centre.y, cell.half_y);
   return clip;
+}
+
+// Only where it does: rounding keeps order, so a rounded difference below a double is one before rounding.
+bool holds_inside(const Cell& cell, Point2 p) {
+  return std::abs(p.x - cell.centre.x) < cell.half_x && std::abs(p.y - cell.centre.y) < cell.half_y;
 }
 
 template <class Number>
@@ -151,6 +157,7 @@ bool meets_cell(const Segment& s, const Cell& cell) {
     constexpr double kMore = 1 + 0x1p-40;
     if (across + wide_error < wide && along > kMore * room && squared - along > kMore * room) return true;
   }
+  if (holds_inside(cell, s.a) || holds_inside(cell, s.b)) return true;
   return !clip_to_cell(s, cell).empty();
 }
 
@@ -166,6 +173,7 @@ bool enters_before(const Segment& s, const Cell& first, const Cell& second) {
     const double error = kProductError * (std::abs(dx * x) + std::abs(dy * y) + unsure);
     if (std::abs(ahead) > unsure + error) return ahead > 0;
   }
+  if (holds_inside(first, s.a) && holds_inside(second, s.a)) return first.centre < second.centre;
   const Rational enter_first = clip_to_cell(s, first).low;
   const Rational enter_second = clip_to_cell(s, second).low;
   return enter_first != enter_second ? enter_first < enter_second : first.centre < second.centre;
