@@ -1,10 +1,12 @@
 // Every target on what it starts with, on its folder of the corpus, and on a fixed number of mutants of both.
-// THALWEG_MUTANTS sets the number. build/.../fuzz/TARGET.last holds the input that ran last, for a crash.
+// THALWEG_MUTANTS sets the number, THALWEG_SEED the seed. build/.../fuzz/TARGET.last holds the input that ran
+// last, for a crash.
 #include "fuzz/mutant.hpp"
 #include "fuzz/scratch.hpp"
 #include "fuzz/target.hpp"
 
 #include <gtest/gtest.h>
+#include <support/random.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -52,7 +54,9 @@ TEST_P(FuzzTargets, Mutants) {
   const char* const wanted = std::getenv("THALWEG_MUTANTS");
   const std::size_t count = wanted == nullptr ? 400 : std::strtoull(wanted, nullptr, 10);
   const std::vector<std::string> inputs = inputs_of(target());
-  Mutants mutants(inputs, 20);
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  Mutants mutants(inputs, random.engine()());
   for (std::size_t i = 0; i < count && !HasFailure(); ++i) run(mutants.next());
 }
 
