@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -49,6 +49,7 @@ class Builder {
     LabelNetwork<Criteria>& network = out_.network;
     for (const FaceLabels<Criteria>& labels : faces_) {
       network.unary.insert(network.unary.end(), labels.unary.begin(), labels.unary.end());
+      take_out_least(network.unary, network.first_label.back());
       network.first_label.push_back(static_cast<std::uint32_t>(network.unary.size()));
     }
     network.pairs.reserve(sides_.edges.size());
@@ -64,6 +65,20 @@ class Builder {
     const std::size_t first = out_.network.classes.size();
     out_.network.classes.insert(out_.network.classes.end(), classes.begin(), classes.end());
     return first;
+  }
+
+  static std::int64_t& part(Cost<Criteria>& cost, std::size_t level) { return cost.level[level]; }
+  static std::int64_t& part(Weight<Criteria>& weight, std::size_t level) { return weight[level]; }
+
+  // From `first` on there are costs of which each choice has one.
+  template <class Costs>
+  void take_out_least(std::vector<Costs>& costs, std::size_t first) {
+    for (std::size_t level = 0; level < Criteria; ++level) {
+      std::int64_t least = std::numeric_limits<std::int64_t>::max();
+      for (std::size_t i = first; i < costs.size(); ++i) least = std::min(least, part(costs[i], level));
+      for (std::size_t i = first; i < costs.size(); ++i) part(costs[i], level) -= least;
+      out_.base[level] += least;
+    }
   }
 
   [[nodiscard]] std::span<const std::uint16_t> column(std::uint32_t face, std::uint32_t side) const {
@@ -104,6 +119,7 @@ class Builder {
       }
       network.weights.push_back(least);
     }
+    take_out_least(network.weights, pair.weight);
     network.pairs.push_back(pair);
   }
 
@@ -127,7 +143,7 @@ class Builder {
     for (std::uint32_t n = 1; n < nodes; ++n) {
       if (pits.sets.find(n) != n) continue;
       if (first_outlet_[n] == first_outlet_[n + 1]) {
-        ++out_.sure_pits;
+        ++out_.base[*terms_.pit_level];
       } else {
         add_outlets(n);
       }
@@ -168,14 +184,13 @@ class Builder {
     const FaceLabels<Criteria>& face = faces_[list[begin].face];
     std::vector<std::uint16_t> named(labels, 0), joined;
     for (std::size_t i = begin; i < end; ++i) named[i] = static_cast<std::uint16_t>(i - begin + 1);
-    std::map<std::vector<std::uint8_t>, std::uint16_t> patterns;
     std::vector<std::vector<std::uint8_t>> pattern;  // by class
     for (std::size_t label = 0; label < face.unary.size(); ++label) {
       std::vector<std::uint8_t> joins;
       for (std::size_t i = begin; i < end; ++i) joins.push_back(face.has_link(list[i].link, label) ? 1 : 0);
-      const auto [at, fresh] = patterns.try_emplace(joins, static_cast<std::uint16_t>(pattern.size()));
-      if (fresh) pattern.push_back(joins);
-      joined.push_back(at->second);
+      const auto known = std::find(pattern.begin(), pattern.end(), joins);
+      joined.push_back(static_cast<std::uint16_t>(known - pattern.begin()));
+      if (known == pattern.end()) pattern.push_back(std::move(joins));
     }
     PairTerm pair{.a = variable, .b = list[begin].face};
     pair.class_a = add_classes(named);
@@ -238,14 +253,28 @@ class Builder {
     }
   }
 
+  /// What a choice costs at most, by what each variable and each pair can.
+  [[nodiscard]] double most_at(std::size_t level) const {
+    const LabelNetwork<Criteria>& network = out_.network;
+    double sum = 0;
+    for (std::size_t v = 0; v < network.size(); ++v) {
+      double most = 0;
+      for (std::size_t i = network.first_label[v]; i < network.first_label[v + 1]; ++i)
+        most = std::max(most, std::abs(static_cast<double>(network.unary[i].level[level])));
+      sum += most;
+    }
+    for (const PairTerm& pair : network.pairs) {
+      double most = 0;
+      for (std::size_t i = 0; i < std::size_t{pair.classes_a} * pair.classes_b; ++i)
+        most = std::max(most, std::abs(static_cast<double>(network.weights[pair.weight + i][level])));
+      sum += most;
+    }
+    return sum;
+  }
+
   void refuse_overflow() const {
     for (std::size_t level = 0; level < Criteria; ++level) {
-      double most = 0;
-      for (const Cost<Criteria>& cost : out_.network.unary)
-        most += std::abs(static_cast<double>(cost.level[level]));
-      for (const Weight<Criteria>& weight : out_.network.weights)
-        most += std::abs(static_cast<double>(weight[level]));
-      if (most < 0x1p62) continue;
+      if (most_at(level) < 0x1p62) continue;
       throw Error(
           ErrorCode::SizeLimit,
           "the values of criterion " + std::to_string(level + 1) +

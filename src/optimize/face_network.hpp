@@ -4,7 +4,9 @@
 
 #include "optimize/face_labels.hpp"
 #include "optimize/label_network.hpp"
+#include "optimize/sums.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -19,9 +21,10 @@ using PlateauSet = std::vector<std::uint32_t>;  ///< nodes, ascending
 template <std::size_t Criteria>
 struct FaceNetwork {
   LabelNetwork<Criteria> network;  ///< first the faces, then what counts pits
+  /// By level what is taken out of the costs, so that their sums stay small: every choice costs as much more.
   /// The number of pits is at least this and the sum of their costs; equal but for sets of plateaus that a
   /// choice joins to each other only.
-  std::int64_t sure_pits = 0;
+  std::array<WideSteps, Criteria> base{};
 };
 
 /// Puts the network together. `pits`: their nodes, if they are counted; `closed`: sets of plateaus each of

@@ -88,9 +88,11 @@ class FaceRun {
   }
 
  private:
+  using Values = std::array<WideSteps, Criteria>;  ///< by level, in steps
   struct Choice {
     std::vector<std::uint32_t> triangles;  ///< candidates, ascending
-    Cost<Criteria> value, bound;
+    Values value{}, bound{};
+    std::size_t new_edges = 0;
     SolverFigures figures;
     std::size_t labels = 0, most_labels = 0, partial_faces = 0, largest_face = 0;
   };
@@ -215,13 +217,14 @@ class FaceRun {
     for (int round = 0;; ++round) {
       const FaceNetwork<Criteria> network = build_network(terms, sides, labels, pits, closed);
       const NetworkSolution<Criteria> solution = solve(network.network, limits_, progress_);
-      const std::int64_t counted = network.sure_pits + solution.value.level[pit_level_];
+      const WideSteps counted = network.base[pit_level_] + solution.value.level[pit_level_];
       if (pits != nullptr && round < kRounds && find_closed(labels, solution.chosen, counted, closed))
         continue;
       Choice choice = choice_of(labels, solution);
-      if (pits == nullptr) return choice;
-      choice.value.level[pit_level_] += network.sure_pits;
-      choice.bound.level[pit_level_] += network.sure_pits;
+      for (std::size_t level = 0; level < Criteria; ++level) {
+        choice.value[level] += network.base[level];
+        choice.bound[level] += network.base[level];
+      }
       return choice;
     }
   }
@@ -229,7 +232,7 @@ class FaceRun {
   /// Adds the sets of plateaus that the choice joins to each other only, and that count as no pit; false if
   /// there is none that is new. `counted`: the pits that its costs tell of.
   bool find_closed(const std::vector<FaceLabels<Criteria>>& labels, const std::vector<std::uint32_t>& chosen,
-                   std::int64_t counted, std::vector<PlateauSet>& closed) {
+                   WideSteps counted, std::vector<PlateauSet>& closed) {
     UnionFind joined(pits_->node_count);
     for (std::size_t f = 0; f < labels.size(); ++f) {
       const FaceLabels<Criteria>& face = labels[f];
@@ -241,7 +244,7 @@ class FaceRun {
     for (std::uint32_t n = 1; n < pits_->node_count; ++n) {
       if (pits_->sets.find(n) == n && joined.find(n) != 0) sets[joined.find(n)].push_back(n);
     }
-    if (static_cast<std::int64_t>(sets.size()) == counted) return false;
+    if (static_cast<WideSteps>(sets.size()) == counted) return false;
     bool found = false;
     for (auto& [first, set] : sets) {
       if (set.size() < 3 || set.size() > kLargestSet) continue;
@@ -255,8 +258,9 @@ class FaceRun {
   Choice choice_of(const std::vector<FaceLabels<Criteria>>& labels,
                    const NetworkSolution<Criteria>& solution) const {
     Choice choice;
-    choice.value = solution.value;
-    choice.bound = solution.bound;
+    std::copy_n(solution.value.level.begin(), Criteria, choice.value.begin());
+    std::copy_n(solution.bound.level.begin(), Criteria, choice.bound.begin());
+    choice.new_edges = static_cast<std::size_t>(solution.value.level[Criteria]);
     choice.figures = solution.figures;
     for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
       const auto& sides = faces_.sides[t];
@@ -348,8 +352,8 @@ class FaceRun {
     return levels;
   }
 
-  static bool same_before(const Cost<Criteria>& a, const Cost<Criteria>& b, std::size_t level) {
-    return std::equal(a.level.begin(), a.level.begin() + level, b.level.begin());
+  static bool same_before(const Values& a, const Values& b, std::size_t level) {
+    return std::equal(a.begin(), a.begin() + level, b.begin());
   }
 
   /// Finds the least limit of an extreme that leaves the levels before it at their best.
@@ -370,12 +374,12 @@ class FaceRun {
       const auto middle = low + (high - low) / 2;
       settled.limit = *middle;
       const Choice trial = solve_up_to(level + 1);
-      if (same_before(trial.value, before.value, level) && trial.value.level[level] == 0) {
+      if (same_before(trial.value, before.value, level) && trial.value[level] == 0) {
         reached = worst(trial);
         high = std::lower_bound(values.begin(), middle, reached);
         continue;
       }
-      const bool excluded = same_before(trial.bound, before.value, level) && trial.bound.level[level] > 0;
+      const bool excluded = same_before(trial.bound, before.value, level) && trial.bound[level] > 0;
       low = middle + 1;
       if (excluded && low != values.end()) settled.bound = *low;
     }
@@ -389,7 +393,7 @@ class FaceRun {
     result.largest_face = choice.largest_face;
     result.labels = choice.labels;
     result.most_labels = choice.most_labels;
-    result.new_edges = static_cast<std::size_t>(choice.value.level[Criteria]);
+    result.new_edges = choice.new_edges;
     result.fixed_by_elimination = choice.figures.fixed_by_elimination;
     result.pieces = choice.figures.pieces;
     result.largest_piece = choice.figures.largest_piece;
@@ -417,8 +421,8 @@ class FaceRun {
       return levels_[level] ? value_on(of, *levels_[level], scale_, reference_, progress_) : order_sum_on(of);
     };
     const WideSteps delaunay = value(delaunay_), result = value(tin);
-    WideSteps bound = result - (choice.value.level[level] - choice.bound.level[level]);
-    if (counts_pits(level)) bound = choice.bound.level[level];
+    WideSteps bound = result - (choice.value[level] - choice.bound[level]);
+    if (counts_pits(level)) bound = choice.bound[level];
     if (is_extreme(level)) bound = settled_[level].bound;
     const auto as_reported = [&](WideSteps steps) {
       return levels_[level] ? in_units(steps, *levels_[level]) : static_cast<double>(steps);
