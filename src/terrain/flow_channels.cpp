@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kBlock = 8192;
 constexpr std::array<unsigned, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
 
-/// Marks channels, and fills `up` of the strips; of each block of triangles the halfedges that stand for a
+/// Marks channels, and fills `inflows`; of each block of triangles the halfedges that stand for a
 /// channel.
 std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
@@ -54,7 +54,7 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
       }
       const unsigned split = shape.split, after = kNext[split], before = kPrevious[split];
       const bool low = shape.corner_is_low != 0;
-      graph.strips[t].up = {up[low ? split : after], low ? HalfedgeId{} : up[before]};
+      graph.inflows[t] = {{up[low ? split : after], low ? HalfedgeId{} : up[before]}, shape};
       graph.channel_sides[t] = static_cast<std::uint8_t>(channels);
       graph.meeting_sides[t] = static_cast<std::uint8_t>(meet);
     }
@@ -68,6 +68,7 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
 void find_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
   graph.channel_sides.resize(mesh.triangle_count());
+  graph.inflows.resize(mesh.triangle_count());
   graph.meeting_sides.resize(mesh.triangle_count());
   graph.target.resize(mesh.halfedge_count());
   const std::vector<std::vector<HalfedgeId>> found = mark_channels(graph, progress);
@@ -109,7 +110,7 @@ void pass_from(TriangleId start, const FlowGraph& graph, Waiting& waiting) {
   while (!ready.empty()) {
     const TriangleId t = ready.back();
     ready.pop_back();
-    for (const HalfedgeId side : graph.strips[t.index()].up) {
+    for (const HalfedgeId side : graph.inflows[t.index()].up) {
       if (side.valid() && --waiting[side.index() / 3] == 0) ready.push_back(Tin::triangle_of(side));
     }
   }
@@ -201,7 +202,7 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
     }
     const HalfedgeId least = std::min(over, twin);
     graph.meeting_sides[least.index() / 3] |= static_cast<std::uint8_t>(1U << (least.index() % 3));
-    for (HalfedgeId& side : graph.strips[next.index()].up) {
+    for (HalfedgeId& side : graph.inflows[next.index()].up) {
       if (side == over) side = {};
     }
     graph.target[over.index()] = static_cast<FlowNode>(graph.node_count());

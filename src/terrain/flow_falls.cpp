@@ -182,7 +182,6 @@ class FallFinder {
         look_at(TriangleId{t});
       }
       graph_.strips[t].area = batch.area[i];
-      graph_.strips[t].shape = graph_.shape[t];
       offer(TriangleId{t}, batch, i, part);
     }
   }

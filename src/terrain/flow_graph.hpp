@@ -42,14 +42,17 @@ struct Strip {
   bool corner_is_low = true;  ///< the corner is where two outflow sides meet (else: two inflow sides)
 };
 
-/// What it takes to follow water upwards through a triangle, in half a cache line.
+/// Where a triangle is split, and its area.
 struct TriangleStrip {
   double at = 0.5;  ///< of its strip; of a level triangle of no meaning
   double area = 0;
-  /// The sides of other triangles over which water comes in: over the side that is split; or over the one
-  /// after it and the one before it. Invalid: none.
+};
+
+/// Over which sides of others water comes into a triangle.
+struct Inflow {
+  /// Over the side that is split; or over the one after it and the one before it. Invalid: none.
   std::array<HalfedgeId, 2> up;
-  TriangleShape shape;
+  TriangleShape shape;  ///< as in `FlowGraph::shape`: near in memory
 };
 
 /// An edge along which water runs.
@@ -65,6 +68,7 @@ struct FlowGraph {
   Flats flats;
   RawVector<TriangleShape> shape;         ///< by triangle
   RawVector<TriangleStrip> strips;        ///< by triangle
+  RawVector<Inflow> inflows;              ///< by triangle
   RawVector<std::uint8_t> channel_sides;  ///< by triangle: a bit a side; both triangles of an edge agree
   /// By triangle: a bit a side that stands for an edge along which grounds may meet: the rim, ridges, beside
   /// level triangles; not where all water goes on, or both sides drain into a channel.

@@ -46,9 +46,8 @@ class Sweep {
     while (!strips_.empty()) {
       const Strip strip = strips_.back();
       strips_.pop_back();
-      const TriangleStrip& triangle = graph_.strips[strip.side.index() / 3];
-      triangle.shape.corner_is_low != 0 ? climb_beside_corner(strip, triangle)
-                                        : climb_below_top(strip, triangle);
+      const Inflow& inflow = graph_.inflows[strip.side.index() / 3];
+      inflow.shape.corner_is_low != 0 ? climb_beside_corner(strip, inflow) : climb_below_top(strip, inflow);
     }
   }
 
@@ -57,31 +56,33 @@ class Sweep {
 
   // Without jumps: on which side of the corner a strip comes cannot be foreseen. As Uphill; at the ends of
   // the side the sums are exact.
-  void climb_beside_corner(const Strip& strip, const TriangleStrip& triangle) {
-    const std::size_t side = strip.side.index() % 3, split = triangle.shape.split;
+  void climb_beside_corner(const Strip& strip, const Inflow& inflow) {
+    const TriangleStrip& triangle = graph_.strips[strip.side.index() / 3];
+    const std::size_t side = strip.side.index() % 3, split = inflow.shape.split;
     const bool before = side == kPrevious[split];
     const double begin = before ? 0 : triangle.at, share = before ? triangle.at : 1 - triangle.at;
     const double p = before ? strip.low : 1 - strip.low, q = before ? strip.high : 1 - strip.high;
     area_ += triangle.area * share * difference(p, q);
     if ((before ? 1 - strip.high : strip.low) == 0) graph_.target[strip.side.index()] = node_;
-    enter(strip.side.index() - side + split, triangle.up[0], begin + strip.low * share,
+    enter(strip.side.index() - side + split, inflow.up[0], begin + strip.low * share,
           begin + strip.high * share);
   }
 
-  void climb_below_top(const Strip& strip, const TriangleStrip& triangle) {
+  void climb_below_top(const Strip& strip, const Inflow& inflow) {
+    const TriangleStrip& triangle = graph_.strips[strip.side.index() / 3];
     const std::size_t side = strip.side.index() % 3, first = strip.side.index() - side;
     const double top = 1 - triangle.at;
     if (strip.low < top) {
       const Uphill uphill = Uphill::below_top(top);
       const double low = uphill(strip.low), high = strip.high >= top ? 1 : uphill(strip.high);
       area_ += triangle.area * top * difference(low, high);
-      enter(first + kNext[side], triangle.up[0], low, high);
+      enter(first + kNext[side], inflow.up[0], low, high);
     }
     if (strip.high <= top) return;
     const Uphill uphill = Uphill::above_top(top);
     const double low = uphill(strip.low), high = strip.high == 1 ? 1 : uphill(strip.high);
     area_ += triangle.area * (1 - top) * difference(1 - low, 1 - high);
-    enter(first + kPrevious[side], triangle.up[1], low, high);
+    enter(first + kPrevious[side], inflow.up[1], low, high);
     if (strip.low > top) return;
     const VertexId corner = graph_.mesh.apex(strip.side);
     const VertexStep& step = graph_.step[corner.index()];
