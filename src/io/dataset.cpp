@@ -2,6 +2,7 @@
 #include "io/dataset.hpp"
 
 #include "io/gdal_session.hpp"
+#include "io/netcdf_length.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -66,6 +67,7 @@ std::string name_of_geometry(OGRwkbGeometryType type) {
 }
 
 GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use) {
+  check_netcdf_length(path);
   GdalSession session;
   const unsigned kinds = use == LayerUse::Points ? GDAL_OF_RASTER | GDAL_OF_VECTOR : GDAL_OF_VECTOR;
   GDALDatasetUniquePtr dataset(

@@ -17,7 +17,8 @@ enum class LayerUse {
 };
 
 /// Opens a file, virtual path or connection for reading, as layers, or, for points, as a raster too.
-/// Throws: Error{NotFound}, Error{Unreadable} in GDAL's words.
+/// Throws: Error{NotFound}, Error{Unreadable} in GDAL's words, Error{BadFormat} for a NetCDF file that is cut
+/// off.
 GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use);
 
 /// The layer that the source names, or the only one that can hold what is wanted.

@@ -7,9 +7,14 @@
 // no header overflows them; files are shorter than 2^53 bytes.
 #include "io/netcdf_length.hpp"
 
+#include <thalweg/base/error.hpp>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <vector>
@@ -64,7 +69,9 @@ class ClassicHeader {
   double value_bytes() {
     constexpr std::array<double, 12> kBytes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     const double type = number(4);
-    return type < kBytes.size() ? kBytes[static_cast<std::size_t>(type)] : 0;
+    if (type > 0 && type < kBytes.size()) return kBytes[static_cast<std::size_t>(type)];
+    file_.setstate(std::ios::failbit);
+    return 0;
   }
 
   void read_dimensions() {
@@ -94,6 +101,7 @@ class ClassicHeader {
       }
       skip_attributes();
       variable.bytes = values * value_bytes();
+      if (variable.bytes >= 0x1p62) file_.setstate(std::ios::failbit);
       count();  // the same, but of no use for large variables
       variable.begin = number(offset_bytes_);
       variables_.push_back(variable);
@@ -126,6 +134,19 @@ class ClassicHeader {
 
 double promised_netcdf_length(const std::string& path) {
   return ClassicHeader(path).promised_length();
+}
+
+void check_netcdf_length(const std::string& path) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return;  // what is read from a pipe is gone
+  const double promised = promised_netcdf_length(path);
+  const auto length = static_cast<double>(std::filesystem::file_size(path, unknown));
+  if (unknown || promised <= length) return;
+  const std::string what =
+      std::isfinite(promised)
+          ? fmt::format("its header promises {:.0f} bytes, there are {:.0f}", promised, length)
+          : "its header breaks off, or lies about what it lists";
+  throw Error(ErrorCode::BadFormat, path + ": is cut off: " + what);
 }
 
 }  // namespace thalweg

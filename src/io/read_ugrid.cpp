@@ -7,12 +7,9 @@
 #include "io/netcdf_length.hpp"
 #include "io/tin_format.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -25,7 +22,7 @@ namespace {
 class UgridReader {
  public:
   UgridReader(const std::string& path, Progress& progress)
-      : path_(found_whole(path)), progress_(progress), file_(path, path, NetcdfFile::Mode::Read) {}
+      : path_(path), progress_(progress), file_(path, path, NetcdfFile::Mode::Read) {}
 
   TinFile read() {
     const int mesh = find_mesh();
@@ -40,17 +37,6 @@ class UgridReader {
   }
 
  private:
-  static const std::string& found_whole(const std::string& path) {
-    std::error_code unknown;
-    const auto length = static_cast<double>(std::filesystem::file_size(path, unknown));
-    const double promised = promised_netcdf_length(path);
-    if (unknown || promised <= length) return path;
-    const std::string what =
-        std::isfinite(promised)
-            ? fmt::format("its header promises {:.0f} bytes, there are {:.0f}", promised, length)
-            : "its header breaks off, or lies about how much it lists";
-    throw Error(ErrorCode::BadFormat, path + ": is cut off: " + what);
-  }
   [[noreturn]] void fail(ErrorCode code, const std::string& what) const {
     throw Error(code, path_ + ": " + what);
   }
@@ -234,6 +220,7 @@ class UgridReader {
 }  // namespace
 
 TinFile read_ugrid(const std::string& path, Progress& progress) {
+  check_netcdf_length(path);
   return UgridReader(path, progress).read();
 }
 

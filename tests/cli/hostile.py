@@ -184,6 +184,11 @@ def netcdf_cut():
     return ["liar.nc"], "bad-format"
 
 
+def netcdf_for_gdal():
+    pathlib.Path("cut.grd").write_bytes(whole(".nc")[:-20])
+    return ["cut.grd"], "bad-format"
+
+
 def geopackage():
     pathlib.Path("liar.gpkg").write_bytes(whole(".gpkg"))
     with sqlite3.connect("liar.gpkg") as base:
@@ -208,7 +213,8 @@ CASES = {
     "OFF: faces": liar(".off", replaced(rb"OFF\n(\d+) \d+", rb"OFF\n\1 4000000000")),
     "STL: triangles": liar(".stl", patched(80, struct.pack("<I", 4000000000))),
     "LandXML: corner": liar(".xml", replaced(rb"(<F[^>]*>)\d+", rb"\g<1>4000000000")),
-    "LAS: points": las, "UGRID: nodes": netcdf, "UGRID: cut off": netcdf_cut, "GPKG: corner": geopackage,
+    "LAS: points": las, "UGRID: nodes": netcdf, "UGRID: cut off": netcdf_cut, "NetCDF for GDAL: cut off": netcdf_for_gdal,
+    "GPKG: corner": geopackage,
 }
 
 

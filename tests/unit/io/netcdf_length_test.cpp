@@ -75,7 +75,12 @@ TEST(NetcdfLength, NoFileIsLongEnoughForAHeaderThatBreaksOff) {
   const std::string path = folder.file("a.nc");
   const std::string nothing(8, '\0');
   const std::string many("\0\0\0\x0b\x7f\xff\xff\xff", 8);  // variables
-  for (const std::string& lists : {nothing, nothing + nothing + many}) {
+  // One attribute or variable of type 12, which is none.
+  const std::string attribute("\0\0\0\x0c\0\0\0\1\0\0\0\1a\0\0\0\0\0\0\x0c\0\0\0\0", 24);
+  const std::string variable = std::string("\0\0\0\x0b\0\0\0\1\0\0\0\1v\0\0\0\0\0\0\0", 20) + nothing +
+                               std::string("\0\0\0\x0c\0\0\0\4\0\0\0\0", 12);
+  for (const std::string& lists :
+       {nothing, nothing + nothing + many, nothing + attribute + nothing, nothing + nothing + variable}) {
     test::write_text(path, std::string("CDF\x01\0\0\0\0", 8) + lists);
     EXPECT_EQ(promised_netcdf_length(path), std::numeric_limits<double>::infinity());
   }
