@@ -4,9 +4,10 @@
 // 1997, for the cavity; Toussaint, Avis, On a convex hull algorithm for polygons and its application to
 // triangulation problems, 1982, for its halves.
 //
-// 1. From a's cells find the one through whose far side ab leaves, and walk along ab to b: the cells crossed
-//    are the cavity. Of each but the first and the last, one side is not crossed: it lies left or right of
-//    ab; the first has one at a, the last one at b, on either hand.
+// 1. Look at the cells about a and those about b in turn, as one of both may have very many, for the one
+//    through whose far side ab leaves; say a's. Walk along ab to b: the cells crossed are the cavity. Of each
+//    but the first and the last, one side is not crossed: it lies left or right of ab; the first has one at
+//    a, the last one at b, on either hand.
 // 2. The sides on one hand form a chain from a to b; together with ab it bounds half of the cavity. Each
 //    vertex of the chain was joined across ab, so it sees a point of ab. Such a polygon is triangulated by
 //    one scan: whenever the last two pieces of the chain turn towards ab, they and the chord between their
@@ -46,8 +47,18 @@ class EdgeInsertion {
     bool constrained = false;
   };
 
+  /// What one cell at the end of an edge tells of it; nothing of most of them.
+  struct Look {
+    std::uint32_t along = kNone;    ///< the edge is this side
+    std::uint32_t inside = kNone;   ///< it runs through this vertex
+    std::uint32_t leaving = kNone;  ///< it leaves the cell through this side
+    [[nodiscard]] bool tells() const { return along != kNone || inside != kNone || leaving != kNone; }
+  };
+
   void note_incident(std::uint32_t cell);
-  std::optional<EdgeFault> find_cavity(std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] std::uint32_t corner_at(std::uint32_t cell, std::uint32_t vertex) const;
+  [[nodiscard]] Look look(std::uint32_t cell, std::uint32_t from, std::uint32_t to) const;
+  std::optional<EdgeFault> find_cavity(std::uint32_t leaving, std::uint32_t a, std::uint32_t b);
   void take_pieces(std::uint32_t a, std::uint32_t b);
   void add_piece(std::uint32_t side, std::vector<std::uint32_t>& chain);
   std::uint32_t fill(std::span<const std::uint32_t> chain, std::uint32_t from);
@@ -82,50 +93,44 @@ void EdgeInsertion::mark(std::uint32_t side) {
   cells_[cell_of(other)].constrained |= 1U << corner_of(other);
 }
 
-// Leaves the cavity empty if ab is a side already, which it then marks.
-std::optional<EdgeFault> EdgeInsertion::find_cavity(std::uint32_t a, std::uint32_t b) {
-  cavity_.clear();
-  const Point2 from = at_[a];
-  const Point2 to = at_[b];
-  const std::uint32_t infinity = at_.infinity();
-  std::uint32_t cell = incident_[a];
-  std::uint32_t leaving = kNone;
-  for (const std::uint32_t first = cell; leaving == kNone;) {
-    const Cell& here = cells_[cell];
-    std::uint32_t corner = 0;
-    while (here.vertex[corner] != a) ++corner;
-    const std::uint32_t right = here.vertex[after(corner)];
-    const std::uint32_t left = here.vertex[before(corner)];
-    if (right == b || left == b) {
-      mark(side_of(cell, right == b ? before(corner) : after(corner)));
-      return std::nullopt;
-    }
-    if (right != infinity && left != infinity) {
-      const int of_right = orientation(from, to, at_[right]);
-      const int of_left = orientation(from, to, at_[left]);
-      for (const auto& [v, side] : {std::pair(right, of_right), std::pair(left, of_left)}) {
-        if (side == 0 && on_segment(from, to, at_[v])) return EdgeFault{{a, b}, v};
-      }
-      if (of_right < 0 && of_left > 0 && orientation(from, at_[right], at_[left]) > 0) {
-        leaving = side_of(cell, corner);
-        break;
-      }
-    }
-    cell = cell_of(here.neighbour[after(corner)]);  // counter-clockwise around a
-    THALWEG_ASSERT(cell != first);
+std::uint32_t EdgeInsertion::corner_at(std::uint32_t cell, std::uint32_t vertex) const {
+  std::uint32_t corner = 0;
+  while (cells_[cell].vertex[corner] != vertex) ++corner;
+  return corner;
+}
+
+EdgeInsertion::Look EdgeInsertion::look(std::uint32_t cell, std::uint32_t from, std::uint32_t to) const {
+  const Cell& here = cells_[cell];
+  const std::uint32_t corner = corner_at(cell, from);
+  const std::uint32_t right = here.vertex[after(corner)];
+  const std::uint32_t left = here.vertex[before(corner)];
+  if (right == to || left == to)
+    return {.along = side_of(cell, right == to ? before(corner) : after(corner))};
+  if (right == at_.infinity() || left == at_.infinity()) return {};
+  const int of_right = orientation(at_[from], at_[to], at_[right]);
+  const int of_left = orientation(at_[from], at_[to], at_[left]);
+  for (const auto& [v, side] : {std::pair(right, of_right), std::pair(left, of_left)}) {
+    if (side == 0 && on_segment(at_[from], at_[to], at_[v])) return {.inside = v};
   }
-  cavity_.push_back(cell);
+  if (of_right < 0 && of_left > 0 && orientation(at_[from], at_[right], at_[left]) > 0) {
+    return {.leaving = side_of(cell, corner)};
+  }
+  return {};
+}
+
+std::optional<EdgeFault> EdgeInsertion::find_cavity(std::uint32_t leaving, std::uint32_t a, std::uint32_t b) {
+  cavity_.assign(1, cell_of(leaving));
   while (true) {
     if ((cells_[cell_of(leaving)].constrained >> corner_of(leaving) & 1U) != 0) {
       return EdgeFault{{a, b}, std::nullopt};
     }
     const std::uint32_t entered = cells_[cell_of(leaving)].neighbour[corner_of(leaving)];
     const std::uint32_t corner = corner_of(entered);
-    cell = cell_of(entered);
+    const std::uint32_t cell = cell_of(entered);
     cavity_.push_back(cell);
     const std::uint32_t apex = cells_[cell].vertex[corner];
     if (apex == b) return std::nullopt;
-    const int side = orientation(from, to, at_[apex]);
+    const int side = orientation(at_[a], at_[b], at_[apex]);
     if (side == 0) return EdgeFault{{a, b}, apex};
     // The left end of the side just crossed comes after the apex; an apex on the left takes its place.
     leaving = side_of(cell, side > 0 ? after(corner) : before(corner));
@@ -152,8 +157,7 @@ void EdgeInsertion::take_pieces(std::uint32_t a, std::uint32_t b) {
     const Cell& cell = cells_[cavity_[i]];
     if (i == 0 || i + 1 == cavity_.size()) {
       const std::uint32_t tip = i == 0 ? a : b;
-      std::uint32_t corner = 0;
-      while (cell.vertex[corner] != tip) ++corner;
+      const std::uint32_t corner = corner_at(cavity_[i], tip);
       // Opposite to the right neighbour of a, or the left one of b, lies the side on the left of ab.
       add_piece(side_of(cavity_[i], after(corner)), i == 0 ? left_ : right_);
       add_piece(side_of(cavity_[i], before(corner)), i == 0 ? right_ : left_);
@@ -273,8 +277,20 @@ void EdgeInsertion::legalise() {
 }
 
 std::optional<EdgeFault> EdgeInsertion::insert(std::uint32_t a, std::uint32_t b) {
-  if (const auto fault = find_cavity(a, b)) return fault;
-  if (cavity_.empty()) return std::nullopt;
+  std::uint32_t cell_at_a = incident_[a], cell_at_b = incident_[b];
+  Look found = look(cell_at_a, a, b);
+  while (!found.tells()) {
+    cell_at_a = cell_of(cells_[cell_at_a].neighbour[after(corner_at(cell_at_a, a))]);  // counter-clockwise
+    std::swap(a, b);
+    std::swap(cell_at_a, cell_at_b);
+    found = look(cell_at_a, a, b);
+  }
+  if (found.inside != kNone) return EdgeFault{{a, b}, found.inside};
+  if (found.along != kNone) {
+    mark(found.along);
+    return std::nullopt;
+  }
+  if (const auto fault = find_cavity(found.leaving, a, b)) return fault;
   take_pieces(a, b);
   unused_ = cavity_;
   doubtful_.clear();
