@@ -49,8 +49,8 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
         count += (channel & (h < twin)) ? 1 : 0;  // no twin is greater than any
         const bool runs_out = fall == Fall::Out, comes_in = beyond == Fall::Out;
         const bool one_ground = ((runs_out | comes_in) & goes_on) | (runs_out & comes_in);
-        meet |= (!one_ground & (h < twin) ? 1U : 0U) << side;
-        up[side] = (fall == Fall::In) & comes_in ? twin : HalfedgeId{};
+        meet |= ((!one_ground & (h < twin)) ? 1U : 0U) << side;
+        up[side] = ((fall == Fall::In) & comes_in) ? twin : HalfedgeId{};
       }
       const unsigned split = shape.split, after = kNext[split], before = kPrevious[split];
       const bool low = shape.corner_is_low != 0;
