@@ -29,8 +29,8 @@ struct Catchment {
 /// corners at which water parts, and edges of level triangles: a triangle across which a divide runs is cut,
 /// so every point lies in the catchment in which its path ends. `group_of_sink`: for each sink a number; its
 /// catchments are united. Laws: (1) the areas sum to that of the TIN; (2) both sides of a border have the
-/// same points. Throws: Error{Cancelled}; Error{SizeLimit} from 2^32 points on edges on. Complexity: linear in
-/// triangles and in the edges that borders cross; on all threads.
+/// same points. Throws: Error{Cancelled}; Error{SizeLimit} from 2^32 points on edges on. Complexity: linear
+/// in triangles and in the edges that borders cross; on all threads.
 std::vector<Catchment> outline_catchments(const SurfaceFlow& flow,
                                           std::span<const std::uint32_t> group_of_sink, Progress& progress);
 
