@@ -1,7 +1,7 @@
 // The eight orders of one triangle.
 //
 // 1. Std: all vertices in the disc, by a flood through every edge; over a polygon, whose ground may fall
-//    apart inside the disc, by a grid of its vertices.
+//    apart inside the disc, by rows of its vertices.
 // 2. Pathcon: a flood that edges stop which block (flood.cpp). All other definitions count some of its
 //    vertices: each sight line that they ask for lies in the disc, and joins the vertex to the interior of
 //    the triangle. In particular none of them counts beyond a side that blocks, and no such vertex is
@@ -26,10 +26,10 @@
 #include "order/corner_views.hpp"
 #include "order/flood.hpp"
 #include "order/occupancy.hpp"
-#include "order/point_grid.hpp"
 #include "order/side_count.hpp"
 #include "order/sights.hpp"
 #include "order/sweep_count.hpp"
+#include "order/vertex_rows.hpp"
 
 #include <thalweg/base/assert.hpp>
 #include <thalweg/order/constrained_order.hpp>
@@ -59,7 +59,7 @@ OrderWorkspace& OrderWorkspace::operator=(OrderWorkspace&&) noexcept = default;
 
 struct ConstrainedOrder::Parts {
   Ground ground;
-  std::optional<detail::PointGrid> grid;  ///< of a polygon
+  std::optional<detail::VertexRows> rows;  ///< of a polygon
 };
 
 namespace {
@@ -146,7 +146,7 @@ OrderDefinition same_up_to_one(OrderDefinition definition) {
 
 ConstrainedOrder::ConstrainedOrder(const Tin& ground, GroundMode mode)
     : parts_(std::make_unique<Parts>(Parts{Ground(ground, mode), std::nullopt})) {
-  if (mode == GroundMode::Polygon) parts_->grid.emplace(ground);
+  if (mode == GroundMode::Polygon) parts_->rows.emplace(ground);
 }
 ConstrainedOrder::~ConstrainedOrder() = default;
 ConstrainedOrder::ConstrainedOrder(ConstrainedOrder&&) noexcept = default;
@@ -180,7 +180,7 @@ void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
                                      std::vector<VertexId>& counted) const {
   const detail::Circumdisc disc(ground().point(corners[0]), ground().point(corners[1]),
                                 ground().point(corners[2]));
-  parts_->grid->visit_box(disc.box(), [&](VertexId v) {
+  parts_->rows->visit_box(disc.box(), [&](VertexId v) {
     if (std::find(corners.begin(), corners.end(), v) != corners.end()) return true;
     if (disc.holds(ground().point(v))) counted.push_back(v);
     return counted.size() <= limit;
@@ -290,7 +290,7 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
   const Triangle corners = counter_clockwise(ground, triangle);
   std::vector<VertexId>& counted = workspace.parts_->counted;
   counted.clear();
-  if (definition == OrderDefinition::Std && parts_->grid) return count_in_grid(corners, limit, counted);
+  if (definition == OrderDefinition::Std && parts_->rows) return count_in_grid(corners, limit, counted);
   const auto start = ground.face_in_angle(corners[0], corners[1], corners[2]);
   THALWEG_ASSERT(start.has_value());
   if (!start) return;

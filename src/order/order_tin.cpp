@@ -12,8 +12,12 @@
 // 3. What is left is asked for one by one: little in a TIN of low order. So is every triangle where nothing
 //    is known beforehand: under Std over a polygon, and where flips take too long. What floods need is the
 //    topology of the TIN, not that it is Delaunay.
+// 4. Under Std among constraint edges many discs at the hull and at long edges hold much of the terrain.
+// There
+//    vertices are counted in rows (vertex_rows.cpp), without a look at each.
 #include "base/parallel.hpp"
 #include "order/delaunay_flips.hpp"
+#include "order/vertex_rows.hpp"
 
 #include <thalweg/order/constrained_order.hpp>
 #include <thalweg/order/order_tin.hpp>
@@ -21,6 +25,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace thalweg {
 
@@ -78,13 +83,17 @@ void ask_for_unknown(const Tin& tin, const TinOrderOptions& options, const Const
   for (std::size_t t = 0; t < orders.size(); ++t) {
     if (orders[t] == kUnknown) unknown.push_back(TriangleId{t});
   }
+  const bool plain = options.definition == OrderDefinition::Std && !order.unconstrained();
+  std::optional<detail::VertexRows> rows;
+  if (plain && !unknown.empty()) rows.emplace(tin);
   tbb::enumerable_thread_specific<OrderWorkspace> workspaces;
   for_each_block(unknown.size(), kBlock / 8, progress, {0.6, 1}, [&](std::size_t begin, std::size_t end) {
     OrderWorkspace& workspace = workspaces.local();
     for (std::size_t i = begin; i < end; ++i) {
       const TriangleId t = unknown[i];
       orders[t.index()] =
-          static_cast<std::uint32_t>(order.order(tin.triangle(t), options.definition, workspace));
+          static_cast<std::uint32_t>(rows ? rows->count_in_disc(tin.triangle(t))
+                                          : order.order(tin.triangle(t), options.definition, workspace));
     }
   });
 }

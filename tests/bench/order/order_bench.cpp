@@ -184,11 +184,7 @@ BENCHMARK_CAPTURE(tin_orders, random5_higher_pathcon, Scene::Random5, kPathcon, 
 BENCHMARK_CAPTURE(tin_orders, random5_higher_sees_triang, Scene::Random5, kSeesTriang, kSeesOpp)
     ->Apply(tin_sizes);
 BENCHMARK_CAPTURE(tin_orders, random5_higher_sees_vtx, Scene::Random5, kSeesVtx, kSeesOpp)->Apply(tin_sizes);
-BENCHMARK_CAPTURE(tin_orders, random5_std, Scene::Random5, OrderDefinition::Std, kSeesOpp)
-    ->RangeMultiplier(10)
-    ->Range(10000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime();
+BENCHMARK_CAPTURE(tin_orders, random5_std, Scene::Random5, OrderDefinition::Std, kSeesOpp)->Apply(tin_sizes);
 BENCHMARK_CAPTURE(tin_orders, lattice, Scene::Lattice, kSeesOpp, kSeesOpp)->Apply(tin_sizes);
 BENCHMARK_CAPTURE(tin_orders, comb, Scene::Comb, kSeesOpp, kSeesOpp)
     ->Arg(10000)
