@@ -176,8 +176,8 @@ bool ConstrainedOrder::sees(VertexId p, VertexId q) const {
   return parts_->ground.sees(p, q);
 }
 
-void ConstrainedOrder::count_in_grid(const Triangle& corners, std::size_t limit,
-                                     std::vector<VertexId>& counted) const {
+void ConstrainedOrder::count_in_box(const Triangle& corners, std::size_t limit,
+                                    std::vector<VertexId>& counted) const {
   const detail::Circumdisc disc(ground().point(corners[0]), ground().point(corners[1]),
                                 ground().point(corners[2]));
   parts_->rows->visit_box(disc.box(), [&](VertexId v) {
@@ -290,7 +290,7 @@ void ConstrainedOrder::count(const Triangle& triangle, OrderDefinition definitio
   const Triangle corners = counter_clockwise(ground, triangle);
   std::vector<VertexId>& counted = workspace.parts_->counted;
   counted.clear();
-  if (definition == OrderDefinition::Std && parts_->rows) return count_in_grid(corners, limit, counted);
+  if (definition == OrderDefinition::Std && parts_->rows) return count_in_box(corners, limit, counted);
   const auto start = ground.face_in_angle(corners[0], corners[1], corners[2]);
   THALWEG_ASSERT(start.has_value());
   if (!start) return;

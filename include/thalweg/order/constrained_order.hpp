@@ -130,7 +130,7 @@ class ConstrainedOrder {
                       OrderWorkspace& workspace) const;
   bool count_by_sides(const Triangle& corners, OrderDefinition definition, const Limits& limits,
                       OrderWorkspace& workspace) const;
-  void count_in_grid(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
+  void count_in_box(const Triangle& corners, std::size_t limit, std::vector<VertexId>& counted) const;
 
   std::unique_ptr<Parts> parts_;
 };
