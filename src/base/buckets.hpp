@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -48,6 +49,20 @@ inline Buckets sort_into_buckets(std::span<const std::uint32_t> bucket_of, std::
   std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
   for (std::uint32_t i = 0; i < bucket_of.size(); ++i) sorted.item[next[bucket_of[i]]++] = i;
   return sorted;
+}
+
+/// Numbers 0 to count - 1 by `coordinate(number)`, in so many buckets. Complexity: linear.
+template <class Coordinate>
+Buckets sort_into_buckets(std::size_t count, std::size_t buckets, const Coordinate& coordinate) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = 0; i < count; ++i) {
+    low = std::min(low, coordinate(i));
+    high = std::max(high, coordinate(i));
+  }
+  const BucketOfCoordinate bucket_of(low, high, buckets);
+  std::vector<std::uint32_t> bucket(count);
+  for (std::size_t i = 0; i < count; ++i) bucket[i] = bucket_of(coordinate(i));
+  return sort_into_buckets(bucket, buckets);
 }
 
 }  // namespace thalweg

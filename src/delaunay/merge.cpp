@@ -172,12 +172,7 @@ RawVector<Placed> sort_places(std::span<const Point2> positions, std::size_t fir
                               const Progress& progress) {
   const std::size_t count = positions.size();
   if (count == 0) return {};
-  const auto [least, most] = std::minmax_element(positions.begin(), positions.end());
-  const std::size_t bucket_count = count / 2 + 1;
-  const BucketOfCoordinate bucket_of(least->x, most->x, bucket_count);
-  std::vector<std::uint32_t> bucket(count);
-  for (std::size_t i = 0; i < count; ++i) bucket[i] = bucket_of(positions[i].x);
-  Buckets buckets = sort_into_buckets(bucket, bucket_count);
+  Buckets buckets = sort_into_buckets(count, count / 2 + 1, [&](std::size_t i) { return positions[i].x; });
   RawVector<Placed> placed(count);
   for_each_block(buckets.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {

@@ -47,11 +47,7 @@ class CornerOrder {
   /// By the x of the lowest corner; within a bucket the order is not made yet.
   [[nodiscard]] Buckets buckets() const {
     const std::size_t count = lowest_.size();
-    const auto [least, most] = std::minmax_element(lowest_.begin(), lowest_.end());
-    const BucketOfCoordinate bucket_of(least->x, most->x, count / 2 + 1);
-    std::vector<std::uint32_t> bucket(count);
-    for (std::size_t q = 0; q < count; ++q) bucket[q] = bucket_of(lowest_[q].x);
-    return sort_into_buckets(bucket, count / 2 + 1);
+    return sort_into_buckets(count, count / 2 + 1, [&](std::size_t q) { return lowest_[q].x; });
   }
 
   using Key = std::pair<Point2, std::uint32_t>;
@@ -81,12 +77,8 @@ class CornerOrder {
 
   /// A column of a lattice: keys that differ in y only.
   void sort_column(std::vector<Key>& keys) const {
-    const auto [least, most] = std::minmax_element(keys.begin(), keys.end());
-    const BucketOfCoordinate bucket_of(least->first.y, most->first.y, keys.size());
-    std::vector<std::uint32_t> bucket;
-    bucket.reserve(keys.size());
-    for (const Key& key : keys) bucket.push_back(bucket_of(key.first.y));
-    const Buckets buckets = sort_into_buckets(bucket, keys.size());
+    const Buckets buckets =
+        sort_into_buckets(keys.size(), keys.size(), [&](std::size_t i) { return keys[i].first.y; });
     std::vector<Key> sorted;
     sorted.reserve(keys.size());
     for (const std::uint32_t i : buckets.item) sorted.push_back(keys[i]);

@@ -77,13 +77,13 @@ std::vector<std::uint32_t> orders_by_flips(const Tin& tin, FlipRule rule, Progre
   return orders;
 }
 
-void ask_for_unknown(const Tin& tin, const TinOrderOptions& options, const ConstrainedOrder& order,
+// `plain`: under Std, among constraint edges.
+void ask_for_unknown(const Tin& tin, OrderDefinition definition, bool plain, const ConstrainedOrder& order,
                      std::vector<std::uint32_t>& orders, Progress& progress) {
   std::vector<TriangleId> unknown;
   for (std::size_t t = 0; t < orders.size(); ++t) {
     if (orders[t] == kUnknown) unknown.push_back(TriangleId{t});
   }
-  const bool plain = options.definition == OrderDefinition::Std && !order.unconstrained();
   std::optional<detail::VertexRows> rows;
   if (plain && !unknown.empty()) rows.emplace(tin);
   tbb::enumerable_thread_specific<OrderWorkspace> workspaces;
@@ -91,9 +91,8 @@ void ask_for_unknown(const Tin& tin, const TinOrderOptions& options, const Const
     OrderWorkspace& workspace = workspaces.local();
     for (std::size_t i = begin; i < end; ++i) {
       const TriangleId t = unknown[i];
-      orders[t.index()] =
-          static_cast<std::uint32_t>(rows ? rows->count_in_disc(tin.triangle(t))
-                                          : order.order(tin.triangle(t), options.definition, workspace));
+      orders[t.index()] = static_cast<std::uint32_t>(
+          rows ? rows->count_in_disc(tin.triangle(t)) : order.order(tin.triangle(t), definition, workspace));
     }
   });
 }
@@ -109,7 +108,7 @@ TinOrders find_tin_orders(const Tin& tin, const TinOrderOptions& options, Progre
   } else {
     result.orders = orders_by_flips(tin, plain ? FlipRule::FlipAll : FlipRule::KeepConstraints, progress);
   }
-  ask_for_unknown(tin, options, order, result.orders, progress);
+  ask_for_unknown(tin, options.definition, plain, order, result.orders, progress);
   for (const std::uint32_t value : result.orders) {
     result.max_order = std::max(result.max_order, value);
     if (value >= result.histogram.size()) result.histogram.resize(value + std::size_t{1}, 0);

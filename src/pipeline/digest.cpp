@@ -46,13 +46,9 @@ using Row = std::array<double, 3>;
 std::vector<Row> sorted_rows(std::span<const Point2> xy, std::span<const double> heights) {
   constexpr std::size_t kBlock = 4096;
   std::vector<Row> rows(xy.size());
-  const Box2 box = bounding_box(xy);
-  const std::size_t count = xy.size() / 2 + 1;
-  const BucketOfCoordinate bucket_of(box.x_min, box.x_max, count);
-  std::vector<std::uint32_t> bucket(xy.size());
-  for (std::size_t v = 0; v < xy.size(); ++v) bucket[v] = bucket_of(xy[v].x);
-  const Buckets buckets = sort_into_buckets(bucket, count);
-  for_each_block(count, kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+  const Buckets buckets =
+      sort_into_buckets(xy.size(), xy.size() / 2 + 1, [&](std::size_t v) { return xy[v].x; });
+  for_each_block(buckets.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const std::size_t first = buckets.first[b], last = buckets.first[b + 1];
       for (std::size_t i = first; i < last; ++i) {

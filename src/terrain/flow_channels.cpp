@@ -24,7 +24,6 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kBlock = 8192;
-constexpr std::array<unsigned, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
 
 /// Marks channels, and fills `inflows`; of each block of triangles the halfedges that stand for a
 /// channel.
@@ -52,7 +51,7 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
         meet |= ((!one_ground & (h < twin)) ? 1U : 0U) << side;
         up[side] = ((fall == Fall::In) & comes_in) ? twin : HalfedgeId{};
       }
-      const unsigned split = shape.split, after = kNext[split], before = kPrevious[split];
+      const unsigned split = shape.split, after = kNextSide[split], before = kPreviousSide[split];
       const bool low = shape.corner_is_low != 0;
       graph.inflows[t] = {{up[low ? split : after], low ? HalfedgeId{} : up[before]}, shape};
       graph.channel_sides[t] = static_cast<std::uint8_t>(channels);

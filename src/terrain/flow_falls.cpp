@@ -237,8 +237,7 @@ class FallFinder {
     const TriangleShape shape = graph_.shape[t.index()];
     if (shape.level() || shape.corner_is_low != 0) return;
     const HalfedgeId across = Tin::halfedge(t, shape.split);
-    choose_or_keep(c[shape.split == 0 ? 2 : shape.split - 1U],
-                   {batch.slope[i], across, VertexStep::Kind::Cross});
+    choose_or_keep(c[kPreviousSide[shape.split]], {batch.slope[i], across, VertexStep::Kind::Cross});
   }
 
   // What falls against the direction of its only halfedge.

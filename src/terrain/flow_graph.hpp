@@ -22,6 +22,9 @@ namespace thalweg {
 using FlowNode = std::uint32_t;
 constexpr FlowNode kNoNode = std::numeric_limits<FlowNode>::max();
 
+/// The sides next to a side of a triangle, without a jump.
+constexpr std::array<unsigned, 3> kNextSide = {1, 2, 0}, kPreviousSide = {2, 0, 1};
+
 /// How a triangle falls across its side.
 enum class Fall : std::uint8_t { Level = 0, In = 1, Out = 2, Along = 3 };
 

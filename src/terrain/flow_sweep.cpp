@@ -17,7 +17,6 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kBlock = 4096;
-constexpr std::array<unsigned, 3> kNext = {1, 2, 0}, kPrevious = {2, 0, 1};
 
 /// Follows the strips of one channel after another.
 class Sweep {
@@ -36,18 +35,18 @@ class Sweep {
 
  private:
   /// Water that runs over `side` out of its triangle, between two shares of the way along its twin.
-  struct Strip {
+  struct Stream {
     HalfedgeId side;
     double low, high;
   };
 
   void climb(HalfedgeId side) {
-    strips_.push_back({side, 0, 1});
-    while (!strips_.empty()) {
-      const Strip strip = strips_.back();
-      strips_.pop_back();
-      const Inflow& inflow = graph_.inflows[strip.side.index() / 3];
-      inflow.shape.corner_is_low != 0 ? climb_beside_corner(strip, inflow) : climb_below_top(strip, inflow);
+    streams_.push_back({side, 0, 1});
+    while (!streams_.empty()) {
+      const Stream stream = streams_.back();
+      streams_.pop_back();
+      const Inflow& inflow = graph_.inflows[stream.side.index() / 3];
+      inflow.shape.corner_is_low != 0 ? climb_beside_corner(stream, inflow) : climb_below_top(stream, inflow);
     }
   }
 
@@ -56,50 +55,50 @@ class Sweep {
 
   // Without jumps: on which side of the corner a strip comes cannot be foreseen. As Uphill; at the ends of
   // the side the sums are exact.
-  void climb_beside_corner(const Strip& strip, const Inflow& inflow) {
-    const TriangleStrip& triangle = graph_.strips[strip.side.index() / 3];
-    const std::size_t side = strip.side.index() % 3, split = inflow.shape.split;
-    const bool before = side == kPrevious[split];
+  void climb_beside_corner(const Stream& stream, const Inflow& inflow) {
+    const TriangleStrip& triangle = graph_.strips[stream.side.index() / 3];
+    const std::size_t side = stream.side.index() % 3, split = inflow.shape.split;
+    const bool before = side == kPreviousSide[split];
     const double begin = before ? 0 : triangle.at, share = before ? triangle.at : 1 - triangle.at;
-    const double p = before ? strip.low : 1 - strip.low, q = before ? strip.high : 1 - strip.high;
+    const double p = before ? stream.low : 1 - stream.low, q = before ? stream.high : 1 - stream.high;
     area_ += triangle.area * share * difference(p, q);
-    if ((before ? 1 - strip.high : strip.low) == 0) graph_.target[strip.side.index()] = node_;
-    enter(strip.side.index() - side + split, inflow.up[0], begin + strip.low * share,
-          begin + strip.high * share);
+    if ((before ? 1 - stream.high : stream.low) == 0) graph_.target[stream.side.index()] = node_;
+    enter(stream.side.index() - side + split, inflow.up[0], begin + stream.low * share,
+          begin + stream.high * share);
   }
 
-  void climb_below_top(const Strip& strip, const Inflow& inflow) {
-    const TriangleStrip& triangle = graph_.strips[strip.side.index() / 3];
-    const std::size_t side = strip.side.index() % 3, first = strip.side.index() - side;
+  void climb_below_top(const Stream& stream, const Inflow& inflow) {
+    const TriangleStrip& triangle = graph_.strips[stream.side.index() / 3];
+    const std::size_t side = stream.side.index() % 3, first = stream.side.index() - side;
     const double top = 1 - triangle.at;
-    if (strip.low < top) {
+    if (stream.low < top) {
       const Uphill uphill = Uphill::below_top(top);
-      const double low = uphill(strip.low), high = strip.high >= top ? 1 : uphill(strip.high);
+      const double low = uphill(stream.low), high = stream.high >= top ? 1 : uphill(stream.high);
       area_ += triangle.area * top * difference(low, high);
-      enter(first + kNext[side], inflow.up[0], low, high);
+      enter(first + kNextSide[side], inflow.up[0], low, high);
     }
-    if (strip.high <= top) return;
+    if (stream.high <= top) return;
     const Uphill uphill = Uphill::above_top(top);
-    const double low = uphill(strip.low), high = strip.high == 1 ? 1 : uphill(strip.high);
+    const double low = uphill(stream.low), high = stream.high == 1 ? 1 : uphill(stream.high);
     area_ += triangle.area * (1 - top) * difference(1 - low, 1 - high);
-    enter(first + kPrevious[side], inflow.up[1], low, high);
-    if (strip.low > top) return;
-    const VertexId corner = graph_.mesh.apex(strip.side);
+    enter(first + kPreviousSide[side], inflow.up[1], low, high);
+    if (stream.low > top) return;
+    const VertexId corner = graph_.mesh.apex(stream.side);
     const VertexStep& step = graph_.step[corner.index()];
-    if (step.kind == VertexStep::Kind::Cross && step.edge == strip.side) graph_.next[corner.index()] = node_;
+    if (step.kind == VertexStep::Kind::Cross && step.edge == stream.side) graph_.next[corner.index()] = node_;
   }
 
   /// Comes to an In side from below, between two shares of its way, and goes on at `up`, if that is valid.
   void enter(std::size_t in_side, HalfedgeId up, double low, double high) {
     if (!(low < high)) return;
     if (low == 0) graph_.target[in_side] = node_;
-    if (up.valid()) strips_.push_back({up, low, high});
+    if (up.valid()) streams_.push_back({up, low, high});
   }
 
   FlowGraph& graph_;
   FlowNode node_ = kNoNode;
   double area_ = 0;
-  std::vector<Strip> strips_;
+  std::vector<Stream> streams_;
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "fuzz/laws.hpp"
 
 #include "fuzz/target.hpp"
+#include "pipeline/plane.hpp"
 
-#include <thalweg/geodesy/metric_frame.hpp>
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/verify/verify.hpp>
 
@@ -38,20 +38,6 @@ verify::Claims claims_of(const Report& report) {
   return claims;
 }
 
-/// The written coordinates without a jump at the antimeridian; none in a planar CRS.
-std::vector<Point2> continuous_of(const BuiltTin& built) {
-  std::vector<Point2> lonlat;
-  if (!built.crs.geographic) return lonlat;
-  const CrsInfo& crs = built.crs;
-  const auto frame = MetricFrame::from_proj_string(built.report.crs.metric_projection,
-                                                   {crs.equatorial_radius_m, crs.flattening});
-  for (const Point2 p : built.written) {
-    lonlat.push_back(
-        frame.continuous({p.x * crs.degrees_per_unit + crs.prime_meridian_deg, p.y * crs.degrees_per_unit}));
-  }
-  return lonlat;
-}
-
 }  // namespace
 
 void check_built(const BuiltTin& built, OrderDefinition definition) {
@@ -60,7 +46,9 @@ void check_built(const BuiltTin& built, OrderDefinition definition) {
   }
   const Report& report = built.report;
   const auto constraints = built.tin.constraint_edges();
-  const std::vector<Point2> continuous = continuous_of(built);
+  const Plane plane(built.crs, report.crs.metric_projection);
+  const std::vector<Point2> continuous =
+      plane.projected() ? plane.to_lonlat(built.written) : std::vector<Point2>();
   const verify::Subject subject{
       .points = built.tin.points(),
       .written = built.written,

@@ -31,9 +31,9 @@ struct TinOrders {
 /// Error{Cancelled}. Complexity: linear, the flips to the constrained Delaunay triangulation (under Std: to
 /// that without constraint edges), and a ConstrainedOrder::order for each triangle that is neither one of it
 /// nor half of a quadrilateral of it that holds no more; for each triangle under Std in mode Polygon, or
-/// where there are more than four flips an edge. Under Std with constraint edges about the root of the number
-/// of vertices in place of a ConstrainedOrder::order. Reports the fraction done of the caller's phase.
-/// Parallel; deterministic.
+/// where there are more than four flips an edge. Under Std with constraint edges each of these costs about
+/// the root of the number of vertices at most, however many its disc holds. Reports the fraction done of the
+/// caller's phase. Parallel; deterministic.
 TinOrders find_tin_orders(const Tin& tin, const TinOrderOptions& options, Progress& progress);
 
 }  // namespace thalweg

@@ -31,7 +31,8 @@ std::string output_of(const std::string& command) {
 class Toulbar2 : public testing::Test {
  protected:
   void SetUp() override {
-    if (output_of("command -v toulbar2").empty()) GTEST_SKIP() << "toulbar2 is not installed";
+    ASSERT_FALSE(output_of("command -v toulbar2").empty())
+        << "toulbar2 is not installed: tools/dev/packages check does it";
     path_ =
         std::filesystem::temp_directory_path() /
         ("thalweg_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".cfn");
