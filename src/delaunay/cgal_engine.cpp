@@ -48,7 +48,7 @@ std::vector<Cdt::Vertex_handle> insert_points(Cdt& cdt, std::span<const Point2> 
 
 }  // namespace
 
-Triangulated triangulate_by_cgal(std::span<const Point2> points, std::span<const VertexPair> edges,
+Triangulated triangulate_by_cgal(std::span<const Point2> points, std::span<const DrawnEdge> edges,
                                  Progress& progress) {
   Triangulated result;
   Cdt cdt;
@@ -57,16 +57,16 @@ Triangulated triangulate_by_cgal(std::span<const Point2> points, std::span<const
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i % kStepsBetweenChecks == 0) progress.check();
     try {
-      cdt.insert_constraint(vertices[edges[i].first], vertices[edges[i].second]);
+      cdt.insert_constraint(vertices[edges[i].ends.first], vertices[edges[i].ends.second]);
     } catch (const Cdt::Intersection_of_constraints_exception&) {
-      result.crossing = edges[i];
+      result.crossing = edges[i].ends;
       return result;
     }
   }
-  result.triangles.corners.reserve(2 * points.size());
+  result.plain.reserve(2 * points.size());
   for (auto face = cdt.finite_faces_begin(); face != cdt.finite_faces_end(); ++face) {
-    result.triangles.corners.push_back({VertexId{face->vertex(0)->info()}, VertexId{face->vertex(1)->info()},
-                                        VertexId{face->vertex(2)->info()}});
+    result.plain.push_back({VertexId{face->vertex(0)->info()}, VertexId{face->vertex(1)->info()},
+                            VertexId{face->vertex(2)->info()}});
   }
   return result;
 }

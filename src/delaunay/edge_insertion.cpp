@@ -305,12 +305,11 @@ std::optional<EdgeFault> EdgeInsertion::insert(std::uint32_t a, std::uint32_t b)
 }  // namespace
 
 std::optional<EdgeFault> insert_edges(const Positions& at, std::span<Cell> cells,
-                                      std::span<const std::pair<std::uint32_t, std::uint32_t>> edges,
-                                      const Progress& progress) {
+                                      std::span<const DrawnEdge> edges, const Progress& progress) {
   EdgeInsertion insertion(at, cells, progress);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i % kStepsBetweenChecks == 0) progress.check();
-    if (const auto fault = insertion.insert(edges[i].first, edges[i].second)) return fault;
+    if (const auto fault = insertion.insert(edges[i].ends.first, edges[i].ends.second)) return fault;
   }
   return std::nullopt;
 }

@@ -15,16 +15,23 @@ namespace thalweg::detail {
 
 using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
+/// An edge to be constrained, its smaller vertex first.
+struct DrawnEdge {
+  VertexPair ends;
+  EdgeKind kind = EdgeKind::None;
+};
+
+/// No triangles at all: all points are collinear.
 struct Triangulated {
-  /// No corners: all points are collinear. No twins: neighbours are not known. `number`: ids of points.
-  LinkedTriangles triangles;
+  LinkedTriangles linked;
+  std::vector<Triangle> plain;         ///< instead, if neighbours are not known
   std::optional<VertexPair> crossing;  ///< an edge that crosses another one, or a vertex: no triangles then
 };
 
 /// See `triangulate` for promises; edges are distinct. Throws: Error{Cancelled}.
-Triangulated triangulate_flat(std::span<const Point2> points, std::span<const VertexPair> edges,
+Triangulated triangulate_flat(std::span<const Point2> points, std::span<const DrawnEdge> edges,
                               Progress& progress);
-Triangulated triangulate_by_cgal(std::span<const Point2> points, std::span<const VertexPair> edges,
+Triangulated triangulate_by_cgal(std::span<const Point2> points, std::span<const DrawnEdge> edges,
                                  Progress& progress);
 
 }  // namespace thalweg::detail

@@ -3,12 +3,13 @@
 // 1. Vertices are numbered anew along a Hilbert curve: what is close in the plane is close in memory.
 // 2. Delaunay triangulation of the vertices (flat_delaunay.cpp), then constraint edges (edge_insertion.cpp).
 //    Both decide by the tie rule, which makes the outcome unique: no order matters.
-// 3. Finite cells become triangles of the vertices as they were given.
+// 3. Finite cells become triangles of the vertices as they were given, sorted where they lie.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "edge_insertion.hpp"
 #include "engine.hpp"
 #include "flat_delaunay.hpp"
+#include "mesh/sort_triangles.hpp"
 #include "spatial_order.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -28,43 +29,45 @@ namespace {
 
 constexpr std::size_t kBlock = 8192;
 
-void fill_finite(std::span<const Cell> cells, std::uint32_t infinity, LinkedTriangles& finite) {
-  const auto is_finite = [&](const Cell& cell) {
-    const auto [u, v, w] = cell.vertex;
+/// Cells that are no ghosts, as a source for sorting.
+struct FiniteCells {
+  std::span<const Cell> cells;
+  std::uint32_t infinity = 0;
+  std::span<const DrawnEdge> edges;  ///< those that were inserted, sorted
+
+  [[nodiscard]] std::size_t size() const { return cells.size(); }
+  [[nodiscard]] bool exists(std::size_t c) const {
+    const auto& [u, v, w] = cells[c].vertex;
     return u != infinity && v != infinity && w != infinity;
-  };
-  const auto in_blocks = [&](const auto& body) { for_each_block(cells.size(), kBlock, Progress(), body); };
-  std::vector<std::uint32_t> first(cells.size() / kBlock + 2, 0);  // for each block: how many lie before it
-  in_blocks([&](std::size_t begin, std::size_t end) {
-    first[begin / kBlock + 1] =
-        static_cast<std::uint32_t>(std::ranges::count_if(cells.subspan(begin, end - begin), is_finite));
-  });
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  RawVector<TriangleId> place(cells.size());
-  in_blocks([&](std::size_t begin, std::size_t end) {
-    std::uint32_t next = first[begin / kBlock];
-    for (std::size_t c = begin; c < end; ++c)
-      place[c] = is_finite(cells[c]) ? TriangleId{next++} : TriangleId{};
-  });
-  finite.corners.resize(first.back());
-  finite.twins.resize(3 * std::size_t{first.back()});
-  in_blocks([&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      if (!place[c].valid()) continue;
-      for (std::uint32_t corner = 0; corner < 3; ++corner) {
-        finite.corners[place[c].index()][corner] = VertexId{cells[c].vertex[corner]};
-        const std::uint32_t across = cells[c].neighbour[before(corner)];
-        const TriangleId twin = place[cell_of(across)];
-        finite.twins[Tin::halfedge(place[c], corner).index()] =
-            twin.valid() ? Tin::halfedge(twin, after(corner_of(across))) : HalfedgeId{};
-      }
-    }
-  });
+  }
+  [[nodiscard]] VertexId corner(std::size_t c, std::size_t i) const { return VertexId{cells[c].vertex[i]}; }
+  [[nodiscard]] SourceSide across(std::size_t c, std::uint32_t i) const {
+    const std::uint32_t side = cells[c].neighbour[before(i)];
+    return {cell_of(side), after(corner_of(side))};
+  }
+  [[nodiscard]] EdgeKind kind(std::size_t c, std::uint32_t i) const {
+    if ((cells[c].constrained >> before(i) & 1U) == 0) return EdgeKind::None;
+    const VertexPair ends = std::minmax(cells[c].vertex[i], cells[c].vertex[after(i)]);
+    return std::ranges::lower_bound(edges, ends, {}, &DrawnEdge::ends)->kind;
+  }
+};
+
+/// The same between vertices of other numbers, sorted.
+std::vector<DrawnEdge> renumbered(std::span<const DrawnEdge> edges, std::span<const std::uint32_t> order) {
+  std::vector<std::uint32_t> number(order.size());
+  for (std::size_t v = 0; v < order.size(); ++v) number[order[v]] = static_cast<std::uint32_t>(v);
+  std::vector<DrawnEdge> moved;
+  moved.reserve(edges.size());
+  for (const auto& [ends, kind] : edges) {
+    moved.push_back({std::minmax(number[ends.first], number[ends.second]), kind});
+  }
+  std::ranges::sort(moved, {}, &DrawnEdge::ends);
+  return moved;
 }
 
 }  // namespace
 
-Triangulated triangulate_flat(std::span<const Point2> points, std::span<const VertexPair> edges,
+Triangulated triangulate_flat(std::span<const Point2> points, std::span<const DrawnEdge> edges,
                               Progress& progress) {
   Triangulated result;
   std::vector<std::uint32_t> order = hilbert_order(points, progress);
@@ -78,27 +81,24 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Ve
   const std::uint32_t infinity = at.infinity();
   RawVector<Cell> cells = delaunay_cells(at, progress);
   progress.advance(0.9);
+  std::vector<DrawnEdge> drawn;
   if (!edges.empty() && !cells.empty()) {
-    std::vector<std::uint32_t> number(points.size());
-    for (std::size_t v = 0; v < order.size(); ++v) number[order[v]] = static_cast<std::uint32_t>(v);
-    std::vector<VertexPair> renumbered;
-    renumbered.reserve(edges.size());
-    for (const VertexPair& edge : edges) {
-      renumbered.emplace_back(std::minmax(number[edge.first], number[edge.second]));
-    }
-    std::sort(renumbered.begin(), renumbered.end());
-    if (const auto fault = insert_edges(at, cells, renumbered, progress)) {
+    drawn = renumbered(edges, order);
+    if (const auto fault = insert_edges(at, cells, drawn, progress)) {
       result.crossing = std::minmax(order[fault->edge.first], order[fault->edge.second]);
       return result;
     }
   }
   release(positions);
+  std::vector<VertexId> number;
   if (!std::is_sorted(order.begin(), order.end())) {
-    result.triangles.number.reserve(order.size());
-    for (const std::uint32_t v : order) result.triangles.number.emplace_back(v);
+    number.reserve(order.size());
+    for (const std::uint32_t v : order) number.emplace_back(v);
   }
   release(order);
-  fill_finite(cells, infinity, result.triangles);
+  const FiniteCells finite{cells, infinity, drawn};
+  SortedCorners sorted = sort_triangles(finite, number, points.size(), progress);
+  result.linked = link_triangles(finite, sorted, progress);
   return result;
 }
 
@@ -110,15 +110,24 @@ std::string describe(Point2 p) {
   return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
 }
 
-std::vector<detail::VertexPair> pairs_of(std::span<const ConstraintEdge> constraints) {
-  std::vector<detail::VertexPair> edges;
-  edges.reserve(constraints.size());
+/// Each pair of vertices once, with all its kinds; sorted.
+std::vector<detail::DrawnEdge> drawn_edges(std::span<const ConstraintEdge> constraints) {
+  std::vector<detail::DrawnEdge> all;
+  all.reserve(constraints.size());
   for (const ConstraintEdge& edge : constraints) {
-    edges.emplace_back(std::minmax(edge.a.value(), edge.b.value()));
+    all.push_back({std::minmax(edge.a.value(), edge.b.value()), edge.kind});
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
+  std::ranges::sort(all, {}, &detail::DrawnEdge::ends);
+  std::size_t count = 0;
+  for (const detail::DrawnEdge& edge : all) {
+    if (count > 0 && all[count - 1].ends == edge.ends) {
+      all[count - 1].kind = all[count - 1].kind | edge.kind;
+    } else {
+      all[count++] = edge;
+    }
+  }
+  all.resize(count);
+  return all;
 }
 
 }  // namespace
@@ -134,7 +143,7 @@ Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
                 "a triangulation needs three distinct points, there are " + std::to_string(points.size()));
   }
   progress.start_phase("triangulating");
-  const std::vector<detail::VertexPair> edges = pairs_of(constraints);
+  const std::vector<detail::DrawnEdge> edges = drawn_edges(constraints);
   detail::Triangulated result = engine == TriangulationEngine::Flat
                                     ? detail::triangulate_flat(points, edges, progress)
                                     : detail::triangulate_by_cgal(points, edges, progress);
@@ -143,17 +152,16 @@ Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
                 "the constraint edge from " + describe(points[result.crossing->first]) + " to " +
                     describe(points[result.crossing->second]) + " crosses another one, or a vertex");
   }
-  if (result.triangles.corners.empty()) {
+  if (result.linked.corners.empty() && result.plain.empty()) {
     throw Error(ErrorCode::Collinear, "all " + std::to_string(points.size()) +
                                           " points lie on one line, from " + describe(points.front()) +
                                           "; a triangulation needs a point beside it");
   }
   progress.advance(1);
-  if (result.triangles.twins.empty()) {
-    const RawVector<Triangle>& corners = result.triangles.corners;
-    return {std::move(points), std::move(heights), {corners.begin(), corners.end()}, constraints};
+  if (result.linked.corners.empty()) {
+    return {std::move(points), std::move(heights), std::move(result.plain), constraints};
   }
-  return {std::move(points), std::move(heights), std::move(result.triangles), constraints, progress};
+  return {std::move(points), std::move(heights), std::move(result.linked)};
 }
 
 }  // namespace thalweg

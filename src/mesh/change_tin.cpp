@@ -2,6 +2,7 @@
 // is known, or changes in a few places: nothing is searched.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
+#include "mesh/sort_triangles.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/change_tin.hpp>
@@ -31,9 +32,37 @@ std::vector<Value> copy(std::span<const Value> values) {
   return {values.begin(), values.end()};
 }
 
-bool any_constraint(std::span<const EdgeKind> kinds) {
-  return std::ranges::any_of(kinds, [](EdgeKind kind) { return kind != EdgeKind::None; });
+/// The side with halfedge h, or none.
+SourceSide side_of(HalfedgeId h) {
+  return {h.index() / 3, static_cast<std::uint32_t>(h.index() % 3)};
 }
+
+/// Triangles that change.
+struct Changing {
+  RawVector<Triangle> triangles;
+  RawVector<HalfedgeId> twins;
+  RawVector<EdgeKind> kinds;
+
+  // As a source for sorting, and then, without `triangles`, for linking.
+  [[nodiscard]] std::size_t size() const { return twins.size() / 3; }
+  [[nodiscard]] bool exists(std::size_t /*t*/) const { return true; }
+  [[nodiscard]] VertexId corner(std::size_t t, std::size_t i) const { return triangles[t][i]; }
+  [[nodiscard]] SourceSide across(std::size_t t, std::size_t i) const { return side_of(twins[3 * t + i]); }
+  [[nodiscard]] EdgeKind kind(std::size_t t, std::size_t i) const { return kinds[3 * t + i]; }
+};
+
+/// The triangles of a TIN for which `keep` is true, as a source for sorting.
+struct Kept {
+  const Tin& tin;
+  const std::vector<bool>& keep;
+  [[nodiscard]] std::size_t size() const { return tin.triangle_count(); }
+  [[nodiscard]] bool exists(std::size_t t) const { return keep[t]; }
+  [[nodiscard]] VertexId corner(std::size_t t, std::size_t i) const { return tin.triangle(TriangleId{t})[i]; }
+  [[nodiscard]] SourceSide across(std::size_t t, std::size_t i) const {
+    return side_of(tin.twin(HalfedgeId{3 * t + i}));
+  }
+  [[nodiscard]] EdgeKind kind(std::size_t t, std::size_t i) const { return tin.kind(HalfedgeId{3 * t + i}); }
+};
 
 /// An edge that comes to lie elsewhere.
 struct Side {
@@ -41,26 +70,26 @@ struct Side {
   EdgeKind kind = EdgeKind::None;
 };
 
-Side side_at(const LinkedTriangles& triangles, HalfedgeId h) {
+Side side_at(const Changing& triangles, HalfedgeId h) {
   return {triangles.twins[h.index()], triangles.kinds[h.index()]};
 }
 
-void put_side(LinkedTriangles& triangles, HalfedgeId h, const Side& side) {
+void put_side(Changing& triangles, HalfedgeId h, const Side& side) {
   triangles.twins[h.index()] = side.twin;
   triangles.kinds[h.index()] = side.kind;
   if (side.twin.valid()) triangles.twins[side.twin.index()] = h;
 }
 
-void flip(LinkedTriangles& triangles, HalfedgeId h) {
+void flip(Changing& triangles, HalfedgeId h) {
   const HalfedgeId other = triangles.twins[h.index()];
-  const auto origin = [&](HalfedgeId g) { return triangles.corners[g.index() / 3][g.index() % 3]; };
+  const auto origin = [&](HalfedgeId g) { return triangles.triangles[g.index() / 3][g.index() % 3]; };
   const VertexId a = origin(h), b = origin(other);
   const VertexId c = origin(Tin::previous(h)), d = origin(Tin::previous(other));
   const Side ca = side_at(triangles, Tin::previous(h)), ad = side_at(triangles, Tin::next(other));
   const Side db = side_at(triangles, Tin::previous(other)), bc = side_at(triangles, Tin::next(h));
   const TriangleId left = Tin::triangle_of(h), right = Tin::triangle_of(other);
-  triangles.corners[left.index()] = {c, a, d};
-  triangles.corners[right.index()] = {d, b, c};
+  triangles.triangles[left.index()] = {c, a, d};
+  triangles.triangles[right.index()] = {d, b, c};
   put_side(triangles, Tin::halfedge(left, 0), ca);
   put_side(triangles, Tin::halfedge(left, 1), ad);
   put_side(triangles, Tin::halfedge(right, 0), db);
@@ -73,67 +102,48 @@ void flip(LinkedTriangles& triangles, HalfedgeId h) {
 
 RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress& progress) {
   check_numbers(number, tin.vertex_count());
-  release(tin.outgoing_);
   RenumberedTin result;
-  Tin& renumbered = result.tin;
-  renumbered.points_.resize(tin.points_.size());
-  renumbered.heights_.resize(tin.points_.size());
+  std::vector<Point2> points(tin.points_.size());
+  std::vector<double> heights(tin.points_.size());
   for_each_block(number.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      renumbered.points_[number[v].index()] = tin.points_[v];
-      renumbered.heights_[number[v].index()] = tin.heights_[v];
+      points[number[v].index()] = tin.points_[v];
+      heights[number[v].index()] = tin.heights_[v];
     }
   });
-  release(tin.points_);
-  release(tin.heights_);
-  if (!any_constraint(tin.kinds_)) release(tin.kinds_);
-  const RawVector<HalfedgeId> moved = renumbered.take({.corners = std::move(tin.triangles_),
-                                                       .twins = std::move(tin.twins_),
-                                                       .kinds = std::move(tin.kinds_),
-                                                       .number = {number.begin(), number.end()}},
-                                                      progress);
-  result.place.resize(moved.size());
-  std::ranges::transform(moved, result.place.begin(), &Tin::triangle_of);
+  Changing given{std::move(tin.triangles_), std::move(tin.twins_), std::move(tin.kinds_)};
+  tin = {};
+  SortedCorners sorted = sort_triangles(given, number, number.size(), progress);
+  release(given.triangles);
+  result.tin = {std::move(points), std::move(heights), link_triangles(given, sorted, progress)};
+  result.place.resize(sorted.moved.size());
+  std::ranges::transform(sorted.moved, result.place.begin(), &TurnedTriangle::triangle);
   return result;
 }
 
-Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges) {
+FlippedTin flip_edges(Tin tin, std::span<const HalfedgeId> edges) {
   for (const HalfedgeId h : edges) {
     if (!tin.on_rim(h) && !tin.constrained(h)) continue;
     throw Error(ErrorCode::InvalidTin, "edge " + std::to_string(tin.origin(h).value()) + ", " +
                                            std::to_string(tin.target(h).value()) +
                                            " cannot be flipped: it is on the rim or constrained");
   }
-  release(tin.outgoing_);
-  LinkedTriangles changed{.corners = std::move(tin.triangles_),
-                          .twins = std::move(tin.twins_),
-                          .kinds = std::move(tin.kinds_),
-                          .number = {}};
+  Changing changed{std::move(tin.triangles_), std::move(tin.twins_), std::move(tin.kinds_)};
   for (const HalfedgeId h : edges) flip(changed, h);
-  tin.take(std::move(changed), Progress());
-  return tin;
+  SortedCorners sorted = sort_triangles(changed, {}, tin.vertex_count(), Progress());
+  release(changed.triangles);
+  FlippedTin flipped{
+      .tin = {std::move(tin.points_), std::move(tin.heights_), link_triangles(changed, sorted, Progress())},
+      .diagonals = {edges.begin(), edges.end()}};
+  for (HalfedgeId& h : flipped.diagonals) h = sorted.moved[Tin::triangle_of(h).index()].halfedge(2);
+  return flipped;
 }
 
 Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep) {
   if (std::find(keep.begin(), keep.end(), false) == keep.end()) return tin;
-  const TinArrays arrays = tin.arrays();
-  std::vector<TriangleId> place(keep.size());
-  LinkedTriangles kept;
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (!keep[t]) continue;
-    place[t] = TriangleId{kept.corners.size()};
-    kept.corners.push_back(arrays.triangles[t]);
-  }
-  kept.twins.reserve(3 * kept.corners.size());
-  kept.kinds.reserve(3 * kept.corners.size());
-  for (std::size_t h = 0; h < arrays.twins.size(); ++h) {
-    if (!keep[h / 3]) continue;
-    const HalfedgeId twin = arrays.twins[h];
-    const TriangleId across = twin.valid() ? place[twin.index() / 3] : TriangleId{};
-    kept.twins.push_back(across.valid() ? Tin::halfedge(across, twin.index() % 3) : HalfedgeId{});
-    kept.kinds.push_back(arrays.kinds[h]);
-  }
-  return {copy(arrays.points), copy(arrays.heights), std::move(kept), {}, Progress()};
+  const Kept kept{tin, keep};
+  SortedCorners sorted = sort_triangles(kept, {}, tin.vertex_count(), Progress());
+  return {copy(tin.points()), copy(tin.heights()), link_triangles(kept, sorted, Progress())};
 }
 
 Tin keep_triangles(Tin&& tin, const std::vector<bool>& keep) {

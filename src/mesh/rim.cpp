@@ -3,6 +3,7 @@
 #include <thalweg/mesh/rim.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace thalweg {
 
@@ -32,6 +33,15 @@ std::vector<std::vector<VertexId>> rim_loops(const Tin& tin) {
   }
   std::sort(loops.begin(), loops.end());
   return loops;
+}
+
+std::vector<HalfedgeId> rim_halfedges(const Tin& tin) {
+  std::vector<HalfedgeId> rim;
+  for (std::size_t h = 0; h < tin.halfedge_count(); ++h) {
+    if (tin.on_rim(HalfedgeId{h})) rim.emplace_back(h);
+  }
+  std::ranges::sort(rim, {}, [&](HalfedgeId h) { return std::pair(tin.origin(h), h); });
+  return rim;
 }
 
 }  // namespace thalweg

@@ -1,15 +1,17 @@
 // The flat TIN.
 //
-// 1. Triangles are sorted (sort_triangles.cpp).
-// 2. Halfedges are bucketed by their origin: a vertex' fan. Large fans are sorted by target and bisected, so
-//    that a hub of many triangles costs no more than other vertices.
+// 1. Triangles are sorted (sort_triangles.hpp).
+// 2. Where fans are asked for, halfedges are bucketed by their origin. Large fans are sorted by target and
+//    bisected, so that a hub of many triangles costs no more than other vertices.
 // 3. Where neighbours are not known, the twin of a -> b is looked up in the fan of a.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
-#include "sort_triangles.hpp"
+#include "mesh/sort_triangles.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
+
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -43,6 +45,14 @@ void check_corners(const Triangle& t, std::size_t vertex_count) {
   }
 }
 
+/// Triangles to be sorted, and no more.
+struct PlainTriangles {
+  std::span<const Triangle> triangles;
+  [[nodiscard]] std::size_t size() const { return triangles.size(); }
+  [[nodiscard]] bool exists(std::size_t /*t*/) const { return true; }
+  [[nodiscard]] VertexId corner(std::size_t t, std::size_t i) const { return triangles[t][i]; }
+};
+
 void check_heights(std::span<const double> heights, std::span<const Point2> points) {
   if (heights.size() == points.size()) return;
   throw Error(ErrorCode::InvalidTin, "a TIN needs as many heights as points");
@@ -55,53 +65,28 @@ Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Tr
     : points_(std::move(points)), heights_(std::move(heights)) {
   check_heights(heights_, points_);
   for (const Triangle& t : triangles) check_corners(t, points_.size());
-  triangles_ = sort_triangles(triangles, {}, points_.size(), Progress()).triangles;
+  triangles_ = sort_triangles(PlainTriangles{triangles}, {}, points_.size(), Progress()).triangles;
   release(triangles);
-  list_fans(Progress());
   link_halfedges();
   kinds_.assign(halfedge_count(), EdgeKind::None);
   mark_constraints(constraints);
 }
 
-Tin::Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangles linked,
-         std::span<const ConstraintEdge> constraints, const Progress& progress)
-    : points_(std::move(points)), heights_(std::move(heights)) {
+Tin::Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangles triangles)
+    : points_(std::move(points)),
+      heights_(std::move(heights)),
+      triangles_(std::move(triangles.corners)),
+      twins_(std::move(triangles.twins)),
+      kinds_(std::move(triangles.kinds)),
+      edge_count_(triangles.edge_count) {
   check_heights(heights_, points_);
-  take(std::move(linked), progress);
-  mark_constraints(constraints);
 }
 
-RawVector<HalfedgeId> Tin::take(LinkedTriangles linked, const Progress& progress) {
-  SortedTriangles sorted = sort_triangles(linked.corners, linked.number, points_.size(), progress);
-  triangles_ = std::move(sorted.triangles);
-  release(linked.corners);
-  release(linked.number);
-  twins_.resize(halfedge_count());
-  kinds_.resize(halfedge_count());
-  if (linked.kinds.empty()) std::ranges::fill(kinds_, EdgeKind::None);
-  std::atomic<std::size_t> rim = 0;
-  for_each_block(triangles_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    std::size_t on_rim = 0;
-    for (std::size_t given = 3 * begin; given < 3 * end; ++given) {
-      const HalfedgeId twin = linked.twins[given];
-      const std::size_t h = sorted.now(HalfedgeId{given}).index();
-      twins_[h] = twin.valid() ? sorted.now(twin) : HalfedgeId{};
-      on_rim += twin.valid() ? 0 : 1;
-      if (!linked.kinds.empty()) kinds_[h] = linked.kinds[given];
-    }
-    rim += on_rim;
-  });
-  edge_count_ = (halfedge_count() + rim) / 2;
-  linked = {};
-  list_fans(progress);
-  return std::move(sorted.moved);
-}
-
-void Tin::list_fans(const Progress& progress) {
-  first_outgoing_.assign(points_.size() + 1, 0);
-  outgoing_.resize(halfedge_count());
+Tin::Fans Tin::list_fans() const {
+  Fans fans{.first = std::vector<std::uint32_t>(points_.size() + 1, 0),
+            .outgoing = RawVector<HalfedgeId>(halfedge_count())};
   const auto for_each_halfedge = [&](const auto& body) {
-    for_each_range(points_.size(), progress, [&](std::size_t begin, std::size_t end) {
+    for_each_range(points_.size(), Progress(), [&](std::size_t begin, std::size_t end) {
       const VertexId low{begin}, high{end};
       for (std::size_t t = 0; t < triangles_.size(); ++t) {
         for (std::size_t side = 0; side < 3; ++side) {
@@ -111,26 +96,31 @@ void Tin::list_fans(const Progress& progress) {
       }
     });
   };
-  for_each_halfedge([&](VertexId v, std::size_t) { ++first_outgoing_[v.index() + 1]; });
-  for (std::size_t v = 0; v < points_.size(); ++v) first_outgoing_[v + 1] += first_outgoing_[v];
-  std::vector<std::uint32_t> fill(first_outgoing_.begin(), first_outgoing_.end() - 1);
-  for_each_halfedge([&](VertexId v, std::size_t h) { outgoing_[fill[v.index()]++] = HalfedgeId{h}; });
-  for_each_block(points_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const std::span<HalfedgeId> fan(outgoing_.begin() + first_outgoing_[v],
-                                      outgoing_.begin() + first_outgoing_[v + 1]);
-      if (fan.size() <= kFewEdges) continue;
-      std::sort(fan.begin(), fan.end(), [&](HalfedgeId g, HalfedgeId h) {
-        return std::pair(target(g), g) < std::pair(target(h), h);
-      });
-    }
-  });
+  const auto list = [&] {
+    for_each_halfedge([&](VertexId v, std::size_t) { ++fans.first[v.index() + 1]; });
+    std::partial_sum(fans.first.begin(), fans.first.end(), fans.first.begin());
+    std::vector<std::uint32_t> fill(fans.first.begin(), fans.first.end() - 1);
+    for_each_halfedge([&](VertexId v, std::size_t h) { fans.outgoing[fill[v.index()]++] = HalfedgeId{h}; });
+    for_each_block(points_.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const auto from = fans.outgoing.begin() + fans.first[v],
+                   to = fans.outgoing.begin() + fans.first[v + 1];
+        if (static_cast<std::size_t>(to - from) <= kFewEdges) continue;
+        std::sort(from, to, [&](HalfedgeId g, HalfedgeId h) {
+          return std::pair(target(g), g) < std::pair(target(h), h);
+        });
+      }
+    });
+  };
+  tbb::this_task_arena::isolate(list);  // a thread that waits here must not ask for fans again
+  return fans;
 }
 
 void Tin::link_halfedges() {
   // The triangles around a vertex hold all halfedges that leave it and all that reach it, so a small fan
   // finds its own twins without a look at others.
   twins_.resize(halfedge_count());
+  fans();  // on all threads, before they ask for it
   std::atomic<std::size_t> rim = 0;
   std::atomic<std::uint32_t> repeated = HalfedgeId::kInvalid;  // the smallest one, whatever thread finds it
   const auto report_repeated = [&](HalfedgeId h) {
@@ -207,9 +197,22 @@ HalfedgeId Tin::find_halfedge(VertexId a, VertexId b) const {
   return at != fan.end() && target(*at) == b ? *at : HalfedgeId{};
 }
 
+std::vector<std::uint8_t> Tin::vertices_in_triangles() const {
+  std::vector<std::uint8_t> used(vertex_count(), 0);
+  for_each_block(triangle_count(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (const VertexId v : triangles_[t])
+        std::atomic_ref(used[v.index()]).store(1, std::memory_order_relaxed);
+    }
+  });
+  return used;
+}
+
 std::vector<bool> Tin::rim_vertices() const {
-  std::vector<bool> rim(vertex_count(), false);
-  for (std::size_t v = 0; v < vertex_count(); ++v) rim[v] = outgoing(VertexId{v}).empty();
+  std::vector<bool> rim(vertex_count(), true);
+  for (const Triangle& triangle : triangles_) {
+    for (const VertexId v : triangle) rim[v.index()] = false;
+  }
   for (std::size_t i = 0; i < halfedge_count(); ++i) {
     const HalfedgeId h{i};
     if (!on_rim(h)) continue;

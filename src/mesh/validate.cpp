@@ -2,11 +2,11 @@
 //
 // 1. What one vertex, one triangle or one halfedge shows alone is scanned in parallel; each scan keeps the
 //    first few finds.
-// 2. Halfedges are bucketed by origin. Two with the same target break a law; the twin of a -> b is looked
-//    up among those of b (by bisection where b has many). A TIN brings such lists, and twins. Lists are right
-//    if each has only halfedges of its vertex, to different targets, and there are as many in all as there
-//    are halfedges; twins, if each leads back and joins the same vertices, and where there is none, no other
-//    halfedge does. Where all that holds nothing is built anew.
+// 2. Where twins are given, each has to lead back and to join the same vertices, and no edge of the rim may
+//    be there twice, in whatever direction. Then the rim alone tells overlap (3), and if there is none, no
+//    two triangles lie on the same side of an edge, and no edge lacks a twin. Where that fails, or twins are
+//    not given, halfedges are bucketed by origin: two with the same target break a law; the twin of a -> b is
+//    looked up among those of b (by bisection where b has many).
 // 3. Overlap, touching vertices and equal positions are told from the rim alone (rim_sweep.cpp); that holds
 //    once all triangles are counter-clockwise and edges are used once a side. Crossed constraint edges need
 //    no test: a constraint edge is an edge of a triangle, and triangles do not overlap.
@@ -21,6 +21,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -105,17 +106,16 @@ class Inspection {
     check_numbers();
     check_triangles();
     if (ids_exist_) {
-      linked_ = lists_are_right() && twins_are_right();
-      if (linked_) {
-        check_kinds();
-      } else {
+      list_isolated();
+      linked_ = plane_is_sound_ && tin_.constraints.empty() && twins_are_right() && rim_is_clean();
+      if (!linked_) {
         fans_ = Fans(tin_.triangles, tin_.points.size());
         check_edges();
-        check_fans();
+        check_constraints();
+        if (plane_is_sound_) check_overlap(tin_.points, violation::kOverlap);
       }
-      check_constraints();
+      check_kinds();
       check_isolated();
-      if (plane_is_sound_) check_overlap(tin_.points, violation::kOverlap);
       if (plane_is_sound_ && written_is_sound_) check_overlap(written_, violation::kOverlapInWritten);
     }
     if (!ids_exist_ || !plane_is_sound_) check_positions();
@@ -184,7 +184,6 @@ class Inspection {
     check_length(tin_.heights.size(), n, "heights");
     if (!tin_.twins.empty()) check_length(tin_.twins.size(), halfedges, "twins");
     if (!tin_.kinds.empty()) check_length(tin_.kinds.size(), halfedges, "kinds");
-    if (!tin_.first_outgoing.empty()) check_length(tin_.first_outgoing.size(), n + 1, "starts of fans");
     if (!written_.empty()) check_length(written_.size(), n, "written positions");
     has_written_ = !written_.empty() && written_.size() == n;
   }
@@ -244,60 +243,39 @@ class Inspection {
 
   [[nodiscard]] VertexId origin(HalfedgeId h) const { return tin_.triangles[h.index() / 3][h.index() % 3]; }
   [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
-  // Pre: lists_are_right().
-  [[nodiscard]] std::span<const HalfedgeId> list_of(VertexId v) const {
-    const std::size_t begin = tin_.first_outgoing[v.index()];
-    return tin_.outgoing.subspan(begin, tin_.first_outgoing[v.index() + 1] - begin);
-  }
-
-  // False as well if a list is too long to be read through for each of its edges.
-  [[nodiscard]] bool lists_are_right() const {
-    constexpr std::size_t kLongest = 256;
-    const std::size_t n = tin_.points.size(), halfedges = 3 * tin_.triangles.size();
-    if (tin_.first_outgoing.size() != n + 1 || tin_.outgoing.size() != halfedges) return false;
-    if (tin_.first_outgoing[0] != 0 || tin_.first_outgoing[n] != halfedges) return false;
-    const auto wrong = [&](std::size_t v) {
-      const std::size_t begin = tin_.first_outgoing[v], end = tin_.first_outgoing[v + 1];
-      if (end < begin || end > halfedges || end - begin > kLongest) return true;
-      thread_local std::vector<VertexId> targets;
-      targets.clear();
-      for (std::size_t i = begin; i < end; ++i) {
-        const HalfedgeId h = tin_.outgoing[i];
-        if (h.index() >= halfedges || origin(h) != VertexId{v}) return true;
-        targets.push_back(target(h));
-      }
-      std::sort(targets.begin(), targets.end());
-      return std::adjacent_find(targets.begin(), targets.end()) != targets.end();
-    };
-    return find_broken(n, wrong).count == 0;
-  }
-
-  // Pre: lists_are_right().
-  [[nodiscard]] bool twins_are_right() const {
-    if (tin_.twins.size() != 3 * tin_.triangles.size()) return false;
-    const auto wrong = [&](std::size_t i) {
-      const HalfedgeId h{i}, twin = tin_.twins[i];
-      if (twin.valid()) {
-        return twin.index() >= tin_.twins.size() || tin_.twins[twin.index()] != h ||
-               origin(twin) != target(h) || target(twin) != origin(h);
-      }
-      return std::ranges::any_of(list_of(target(h)), [&](HalfedgeId g) { return target(g) == origin(h); });
-    };
-    return find_broken(tin_.twins.size(), wrong).count == 0;
-  }
-
   // For each halfedge the one on the other side.
   [[nodiscard]] std::span<const HalfedgeId> opposites() const {
     return linked_ ? tin_.twins : std::span<const HalfedgeId>(opposite_);
   }
-  [[nodiscard]] bool is_edge(VertexId a, VertexId b) const {
-    if (!linked_) return fans_.find(a, b).valid() || fans_.find(b, a).valid();
-    const auto leads = [&](VertexId from, VertexId to) {
-      return std::ranges::any_of(list_of(from), [&](HalfedgeId h) { return target(h) == to; });
-    };
-    return leads(a, b) || leads(b, a);
+
+  [[nodiscard]] std::vector<RimEdge> rim_of(std::span<const HalfedgeId> opposite) const {
+    std::vector<RimEdge> rim;
+    for (std::size_t h = 0; h < opposite.size(); ++h) {
+      if (!opposite[h].valid()) rim.push_back({origin(HalfedgeId{h}), target(HalfedgeId{h})});
+    }
+    return rim;
   }
-  [[nodiscard]] bool isolated(VertexId v) const { return linked_ ? list_of(v).empty() : fans_.of(v).empty(); }
+
+  // Each leads back and joins the same vertices.
+  [[nodiscard]] bool twins_are_right() const {
+    if (tin_.twins.size() != 3 * tin_.triangles.size()) return false;
+    const auto wrong = [&](std::size_t i) {
+      const HalfedgeId h{i}, twin = tin_.twins[i];
+      return twin.valid() && (twin.index() >= tin_.twins.size() || tin_.twins[twin.index()] != h ||
+                              origin(twin) != target(h) || target(twin) != origin(h));
+    };
+    return find_broken(tin_.twins.size(), wrong).count == 0;
+  }
+
+  // Pre: twins_are_right().
+  [[nodiscard]] bool rim_is_clean() {
+    rim_ = rim_of(tin_.twins);
+    std::vector<std::pair<VertexId, VertexId>> ends;
+    for (const RimEdge& edge : rim_) ends.emplace_back(std::minmax({edge.from, edge.to}));
+    std::sort(ends.begin(), ends.end());
+    return std::adjacent_find(ends.begin(), ends.end()) == ends.end() &&
+           sweep_rim(tin_.points, rim_, isolated_).empty();
+  }
 
   void check_edges() {
     const std::size_t n = tin_.points.size();
@@ -316,7 +294,7 @@ class Inspection {
         return "halfedge " + std::to_string(h) + " (" + edge_name(h) + ") has a wrong twin";
       });
     }
-    check_kinds();
+    rim_ = rim_of(opposite_);
   }
 
   void check_kinds() {
@@ -346,28 +324,12 @@ class Inspection {
     });
   }
 
-  void check_fans() {
-    if (tin_.first_outgoing.size() != tin_.points.size() + 1) return;
-    std::vector<std::uint8_t> seen(3 * tin_.triangles.size(), 0);
-    const auto wrong = [&](std::size_t v) {
-      const std::size_t begin = tin_.first_outgoing[v], end = tin_.first_outgoing[v + 1];
-      if (end < begin || end > tin_.outgoing.size() || end - begin != fans_.of(VertexId{v}).size())
-        return true;
-      return !std::all_of(tin_.outgoing.begin() + begin, tin_.outgoing.begin() + end, [&](HalfedgeId h) {
-        return h.index() < seen.size() && origin(h) == VertexId{v} && seen[h.index()]++ == 0;
-      });
-    };
-    report(violation::kFanWrong, find_broken(tin_.points.size(), wrong), [](std::size_t v) {
-      return "vertex " + std::to_string(v) + " does not list exactly the halfedges that start at it";
-    });
-  }
-
   void check_constraints() {
     const std::size_t n = tin_.points.size();
     const auto missing = [&](std::size_t i) {
       const ConstraintEdge& e = tin_.constraints[i];
       if (e.a.index() >= n || e.b.index() >= n) return true;
-      return !is_edge(e.a, e.b);
+      return !fans_.find(e.a, e.b).valid() && !fans_.find(e.b, e.a).valid();
     };
     report(violation::kConstraintNoEdge, find_broken(tin_.constraints.size(), missing), [&](std::size_t i) {
       return "constraint edge " + name(tin_.constraints[i].a, tin_.constraints[i].b) +
@@ -375,10 +337,20 @@ class Inspection {
     });
   }
 
-  void check_isolated() {
-    for (std::size_t v = 0; v < tin_.points.size(); ++v) {
-      if (isolated(VertexId{v})) isolated_.push_back(VertexId{v});
+  void list_isolated() {
+    std::vector<std::uint8_t> used(tin_.points.size(), 0);
+    for_each_block(tin_.triangles.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+      for (const Triangle& triangle : tin_.triangles.subspan(begin, end - begin)) {
+        for (const VertexId v : triangle)
+          std::atomic_ref(used[v.index()]).store(1, std::memory_order_relaxed);
+      }
+    });
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (used[v] == 0) isolated_.push_back(VertexId{v});
     }
+  }
+
+  void check_isolated() {
     if (isolated_policy_ == IsolatedVertices::Allow) return;
     Finds finds;
     for (const VertexId v : isolated_) finds.add(v.index());
@@ -387,12 +359,6 @@ class Inspection {
   }
 
   void check_overlap(std::span<const Point2> xy, int code) {
-    if (rim_.empty()) {
-      const std::span<const HalfedgeId> opposite = opposites();
-      for (std::size_t h = 0; h < opposite.size(); ++h) {
-        if (!opposite[h].valid()) rim_.push_back({origin(HalfedgeId{h}), target(HalfedgeId{h})});
-      }
-    }
     const bool written = code == violation::kOverlapInWritten;
     const std::vector<RimFinding> found = sweep_rim(xy, rim_, isolated_);
     Finds touching, overlapping;
@@ -452,7 +418,7 @@ class Inspection {
   bool ids_exist_ = false;
   bool plane_is_sound_ = false;
   bool written_is_sound_ = false;
-  bool linked_ = false;  ///< lists and twins of the TIN are right; else these stand in for them
+  bool linked_ = false;  ///< the TIN's twins are right and show no overlap; else these stand in for them
   Fans fans_;
   std::vector<HalfedgeId> opposite_;
   std::vector<RimEdge> rim_;

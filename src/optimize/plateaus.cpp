@@ -90,14 +90,13 @@ class Finder {
 
   void look_around(const Progress& progress) {
     const std::size_t count = tin_.halfedge_count();
-    node_.assign(tin_.vertex_count(), kNone);
+    const std::vector<std::uint8_t> in_triangle = tin_.vertices_in_triangles();
+    node_.resize(tin_.vertex_count());
+    std::ranges::transform(in_triangle, node_.begin(), [](std::uint8_t in) { return in != 0 ? kNone : 0; });
     level_.resize((count + kBlock - 1) / kBlock);
     for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
       for (std::size_t h = begin; h < end; ++h) look_at(HalfedgeId{h}, level_[begin / kBlock]);
     });
-    for (std::size_t v = 0; v < node_.size(); ++v) {
-      if (tin_.outgoing(VertexId{v}).empty()) node_[v] = 0;
-    }
   }
 
   /// Unites level neighbours; the sets' numbers are those of their first vertices in order.

@@ -68,21 +68,26 @@ bool QuadrilateralFilter::is_convex(const Quadrilateral& q, std::size_t i) const
          (at_v > 0 || orientation(tin_.point(q.t), tin_.point(q.v), tin_.point(q.s)) > 0);
 }
 
-// But for what is beyond.
-EdgeSurroundings QuadrilateralFilter::around(HalfedgeId h) const {
+// But for what is beyond. In place: a copy would have to wait until all parts are written.
+void QuadrilateralFilter::surround(HalfedgeId h, EdgeSurroundings& found) const {
   const Spot left(h), right(tin_.twin(h));
   const Triangle& at_left = tin_.triangles()[left.triangle];
   const Triangle& at_right = tin_.triangles()[right.triangle];
-  return {{at_left[left.previous_side()], at_left[left.side], at_right[right.previous_side()],
-           at_right[right.side], h},
-          {left.next(), right.previous(), right.next(), left.previous()},
-          {},
-          {}};
+  Quadrilateral& quadrilateral = found.quadrilateral;
+  quadrilateral.s = at_left[left.previous_side()];
+  quadrilateral.u = at_left[left.side];
+  quadrilateral.t = at_right[right.previous_side()];
+  quadrilateral.v = at_right[right.side];
+  quadrilateral.diagonal = h;
+  found.sides[0] = left.next();
+  found.sides[1] = right.previous();
+  found.sides[2] = right.next();
+  found.sides[3] = left.previous();
 }
 
 std::span<const EdgeSurroundings> QuadrilateralFilter::look(std::span<const HalfedgeId> edges) {
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    found_[i] = around(edges[i]);
+    surround(edges[i], found_[i]);
     const Quadrilateral& q = found_[i].quadrilateral;
     place(0, i, q.s), place(1, i, q.u), place(2, i, q.t), place(3, i, q.v);
   }

@@ -48,7 +48,7 @@ class QuadrilateralFilter {
     at_.x[column][i] = tin_.point(v).x;
     at_.y[column][i] = tin_.point(v).y;
   }
-  [[nodiscard]] EdgeSurroundings around(HalfedgeId h) const;
+  void surround(HalfedgeId h, EdgeSurroundings& found) const;
   [[nodiscard]] bool is_convex(const Quadrilateral& q, std::size_t i) const;
 
   const Tin& tin_;

@@ -26,6 +26,7 @@
 #include "order/quadrilateral_filter.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/rim.hpp>
 #include <thalweg/order/constrained_order.hpp>
 #include <thalweg/order/quadrilaterals.hpp>
 
@@ -44,7 +45,7 @@ constexpr std::size_t kBlock = 4096;
 class QuadrilateralSearch {
  public:
   QuadrilateralSearch(const Tin& tin, const QuadrilateralOptions& options)
-      : tin_(tin), definition_(options.definition), order_(tin, options.mode) {}
+      : tin_(tin), definition_(options.definition), order_(tin, options.mode), rim_(rim_halfedges(tin)) {}
 
   [[nodiscard]] bool is_quadrilateral(const EdgeSurroundings& edge, OrderWorkspace& workspace) const;
   [[nodiscard]] bool delaunay_fits(TriangleId t, OrderWorkspace& workspace) const {
@@ -75,6 +76,7 @@ class QuadrilateralSearch {
   const Tin& tin_;
   OrderDefinition definition_;
   ConstrainedOrder order_;
+  std::vector<HalfedgeId> rim_;
 };
 
 // A neighbour x of the inner vertex lies inside: is that enough to refuse triangle s u t?
@@ -115,7 +117,7 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Half& half, Vertex
 }
 
 // The other neighbours of the inner vertex: from the triangle across one side, turn by turn, to that across
-// the other. On the rim, where there may be gaps, all are asked.
+// the other. On the rim, where there are gaps, those of all fans are asked.
 QuadrilateralSearch::Verdict QuadrilateralSearch::judge_others(const Half& half) const {
   Verdict worst = Verdict::Fits;
   const auto refuses = [&](VertexId x) {
@@ -130,8 +132,15 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::judge_others(const Half& half)
     if (refuses(tin_.target(spoke))) return worst;
     outer = tin_.twin(spoke);
   }
-  for (const HalfedgeId h : tin_.outgoing(half.inner)) {
-    if (refuses(tin_.target(h)) || (tin_.on_rim(Tin::previous(h)) && refuses(tin_.apex(h)))) break;
+  const auto fans =
+      std::ranges::equal_range(rim_, half.inner, {}, [&](HalfedgeId h) { return tin_.origin(h); });
+  for (const HalfedgeId first : fans) {
+    if (refuses(tin_.target(first))) return worst;
+    HalfedgeId spoke = first;
+    do {
+      if (refuses(tin_.apex(spoke))) return worst;
+      spoke = tin_.twin(Tin::previous(spoke));
+    } while (spoke.valid());
   }
   return worst;
 }

@@ -111,6 +111,7 @@ std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& 
 
 /// Constraint edges that lie wholly outside of the data go with its triangles: the report says how many.
 void note_lost_edges(const Terrain& terrain, Report& report) {
+  if (terrain.whole()) return;
   const Tin& ground = terrain.ground;
   const auto kept = [&](HalfedgeId h) { return h.valid() && terrain.keep[Tin::triangle_of(h).index()]; };
   const auto lost = std::ranges::count_if(ground.constraint_edges(), [&](const ConstraintEdge& edge) {

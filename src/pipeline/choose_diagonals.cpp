@@ -189,8 +189,8 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
   };
   if (run.condition.changes_pits()) {
     choose({});
-    const Tin chosen =
-        run.labelling.by_faces() ? std::move(labelled.tin) : flip_edges(labelled.delaunay, labelled.flips);
+    const Tin chosen = run.labelling.by_faces() ? std::move(labelled.tin)
+                                                : flip_edges(labelled.delaunay, labelled.flips).tin;
     condition(labelled, chosen, run, progress);
   } else if (!run.condition.steps.empty()) {
     condition(labelled, labelled.delaunay, run, progress);

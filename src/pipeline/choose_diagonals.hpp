@@ -23,8 +23,9 @@ struct Labelled {
   std::unique_ptr<const Reference> reference;
   OptimizeOptions options;
   OptimizeResult result;
-  std::vector<HalfedgeId> flips;  ///< edges of `delaunay` that give way to `new_diagonals`
-  Tin tin;                        ///< above order 1; else it follows from the flips
+  /// Edges of `delaunay` that give way to `new_diagonals`; once they have done so, these, in `tin`.
+  std::vector<HalfedgeId> flips;
+  Tin tin;  ///< above order 1; else it follows from the flips
   std::vector<std::array<VertexId, 2>> new_diagonals;
   std::optional<ReportHigherOrder> higher_order;
   std::vector<std::uint16_t> orders;  ///< by triangle, above order 1; else they follow from the new diagonals

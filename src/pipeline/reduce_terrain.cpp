@@ -65,10 +65,6 @@ std::string_view name_of(SimplifyStop stop) {
 std::vector<bool> used_vertices(const Terrain& terrain) {
   const Tin& ground = terrain.ground;
   std::vector<bool> used(ground.vertex_count(), false);
-  if (terrain.whole()) {
-    for (std::size_t v = 0; v < used.size(); ++v) used[v] = !ground.outgoing(VertexId{v}).empty();
-    return used;
-  }
   for (std::size_t t = 0; t < ground.triangle_count(); ++t) {
     if (!terrain.keep[t]) continue;
     for (const VertexId v : ground.triangle(TriangleId{t})) used[v.index()] = true;
@@ -79,6 +75,7 @@ std::vector<bool> used_vertices(const Terrain& terrain) {
 }  // namespace
 
 Terrain without_lonely_vertices(Terrain terrain, TriangulationEngine engine, Progress& progress) {
+  if (terrain.whole()) return terrain;  // every vertex is in a triangle of the ground
   const Tin& ground = terrain.ground;
   const std::vector<bool> used = used_vertices(terrain);
   if (std::find(used.begin(), used.end(), false) == used.end()) return terrain;

@@ -218,11 +218,15 @@ std::vector<std::uint8_t> describe_delaunay(const Labelled& labelled, const Terr
 void flip_chosen(Labelled& labelled, const Terrain& terrain, const RunContext& run, Report& report) {
   release(labelled.quadrilaterals);
   if (run.labelling.by_faces()) return;
+  const auto take = [&](FlippedTin flipped) {
+    labelled.tin = std::move(flipped.tin);
+    labelled.flips = std::move(flipped.diagonals);
+  };
   if (!report.simplification) {
-    labelled.tin = flip_edges(std::move(labelled.delaunay), labelled.flips);
+    take(flip_edges(std::move(labelled.delaunay), labelled.flips));
     return;
   }
-  labelled.tin = flip_edges(labelled.delaunay, labelled.flips);
+  take(flip_edges(labelled.delaunay, labelled.flips));
   const double unit = run.plane.vertical_metres_per_unit();
   const SourceError delaunay = measure_error(labelled.delaunay, terrain.left_out);
   const SourceError result =
@@ -280,22 +284,18 @@ struct Outcome {
   std::vector<std::array<VertexId, 2>> new_diagonals;
 };
 
-std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const std::array<VertexId, 2>> new_diagonals) {
+std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const HalfedgeId> new_diagonals) {
   std::vector<std::uint16_t> orders(tin.triangle_count(), 0);
-  for_each_block(new_diagonals.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
-    for (const auto& [a, b] : new_diagonals.subspan(begin, end - begin)) {
-      for (const HalfedgeId h : {tin.find_halfedge(a, b), tin.find_halfedge(b, a)}) {
-        orders[Tin::triangle_of(h).index()] = 1;  // no two diagonals share a triangle
-      }
-    }
-  });
+  for (const HalfedgeId diagonal : new_diagonals) {
+    for (const HalfedgeId h : {diagonal, tin.twin(diagonal)}) orders[Tin::triangle_of(h).index()] = 1;
+  }
   return orders;
 }
 
 Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t> pits_before,
                    PitSummary after, const Progress& progress) {
   std::vector<std::uint16_t> orders =
-      labelled.higher_order ? std::move(labelled.orders) : orders_of(labelled.tin, labelled.new_diagonals);
+      labelled.higher_order ? std::move(labelled.orders) : orders_of(labelled.tin, labelled.flips);
   Outcome outcome{.built = {.tin = std::move(labelled.tin),
                             .written = std::move(terrain.written),
                             .vertex_source = std::move(terrain.vertex_source),

@@ -1,8 +1,9 @@
 // Pits, plateaus taken as one.
 //
-// 1. Over all triangles, in parallel: mark each vertex that has a lower neighbour, that has a level one,
-//    that is on the rim.
-// 2. A vertex with neither is a pit by itself. One with level but no lower neighbours may be part of a pit:
+// 1. Over all triangles, in parallel: mark each vertex that has a lower neighbour, a level one, a higher one,
+//    and that is on the rim.
+// 2. A vertex with higher neighbours alone is a pit by itself. One with level but no lower neighbours may be
+// part of a pit:
 //    walk its plateau through level edges; it is a pit if no vertex of it has a lower neighbour. Each
 //    plateau is walked once.
 #include "base/parallel.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct Traits {
   std::vector<std::uint8_t> has_lower;
   std::vector<std::uint8_t> has_level;
+  std::vector<std::uint8_t> has_higher;
   std::vector<std::uint8_t> on_rim;
 };
 
@@ -33,6 +35,7 @@ void mark_side(const Tin& tin, HalfedgeId h, VertexId a, VertexId b, Traits& tra
   const double z_a = tin.height(a), z_b = tin.height(b);
   if (z_a != z_b) {
     mark(traits.has_lower, z_a > z_b ? a : b);
+    mark(traits.has_higher, z_a > z_b ? b : a);
   } else {
     mark(traits.has_level, a);
     mark(traits.has_level, b);
@@ -46,8 +49,8 @@ void mark_side(const Tin& tin, HalfedgeId h, VertexId a, VertexId b, Traits& tra
 Traits compare_neighbours(const Tin& tin) {
   constexpr std::size_t kBlock = 16384;
   const std::size_t n = tin.vertex_count();
-  Traits traits{std::vector<std::uint8_t>(n, 0), std::vector<std::uint8_t>(n, 0),
-                std::vector<std::uint8_t>(n, 0)};
+  const std::vector<std::uint8_t> none(n, 0);
+  Traits traits{none, none, none, none};
   for_each_block(tin.triangle_count(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const auto [a, b, c] = tin.triangle(TriangleId{t});
@@ -109,7 +112,7 @@ PitSummary find_pits(const Tin& tin) {
     if (traits.has_level[i] != 0) {
       walk(tin, traits, v, visited, plateau);
       if (!plateau.has_lower) count(plateau, plateau.vertices);
-    } else if (!tin.outgoing(v).empty()) {
+    } else if (traits.has_higher[i] != 0) {
       count({.vertices = {}, .on_rim = traits.on_rim[i] != 0}, std::array{v});
     }
   }

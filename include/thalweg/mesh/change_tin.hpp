@@ -9,11 +9,16 @@
 
 namespace thalweg {
 
+struct FlippedTin {
+  Tin tin;
+  std::vector<HalfedgeId> diagonals;  ///< for each flipped edge one that took its place
+};
+
 /// The TIN in which each given interior, unconstrained edge is replaced by the other diagonal of its
 /// quadrilateral; a TIN that is moved in gives its memory. Pre: no two of the edges bound the same triangle;
 /// each quadrilateral is strictly convex. Throws: Error{InvalidTin} if a given edge is on the rim or
 /// constrained. Complexity: linear.
-Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
+FlippedTin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
 
 struct RenumberedTin {
   Tin tin;

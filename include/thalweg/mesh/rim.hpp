@@ -13,4 +13,8 @@ namespace thalweg {
 /// loop stays with its fan, so a loop may pass such a vertex more than once. Complexity: linear.
 std::vector<std::vector<VertexId>> rim_loops(const Tin& tin);
 
+/// The halfedges on the rim, sorted by their origins: one for each fan that is open, the first of it
+/// counter-clockwise. Complexity: linear, r log r for r of them.
+std::vector<HalfedgeId> rim_halfedges(const Tin& tin);
+
 }  // namespace thalweg

@@ -3,6 +3,7 @@
 /// The triangulated irregular network: flat arrays, immutable once built.
 
 #include <thalweg/base/id.hpp>
+#include <thalweg/base/lazy.hpp>
 #include <thalweg/base/progress.hpp>
 #include <thalweg/base/raw_vector.hpp>
 #include <thalweg/geometry/point.hpp>
@@ -24,12 +25,12 @@ struct ConstraintEdge {
   EdgeKind kind = EdgeKind::Breakline;
 };
 
-/// Triangles that know their neighbours, in any order, each with any corner first.
+/// Triangles as a TIN holds them: sorted, each from its smallest id on, with their neighbours.
 struct LinkedTriangles {
-  RawVector<Triangle> corners;   ///< counter-clockwise
-  RawVector<HalfedgeId> twins;   ///< for each halfedge the one on the other side; invalid on the rim
-  RawVector<EdgeKind> kinds;     ///< for each halfedge; empty: no constraint edge
-  std::vector<VertexId> number;  ///< for each vertex its id in the TIN; empty: the same
+  RawVector<Triangle> corners;  ///< counter-clockwise
+  RawVector<HalfedgeId> twins;  ///< for each halfedge the one on the other side; invalid on the rim
+  RawVector<EdgeKind> kinds;    ///< for each halfedge
+  std::size_t edge_count = 0;
 };
 
 /// A TIN as plain arrays that others own, sound or not; what is not at hand stays empty.
@@ -40,9 +41,6 @@ struct TinArrays {
   std::span<const ConstraintEdge> constraints;
   std::span<const HalfedgeId> twins;  ///< for each halfedge
   std::span<const EdgeKind> kinds;    ///< for each halfedge
-  std::span<const std::uint32_t>
-      first_outgoing;  ///< for each vertex where its part of `outgoing` starts; then its end
-  std::span<const HalfedgeId> outgoing;
 };
 
 /// A triangulation of points with heights.
@@ -51,7 +49,7 @@ struct TinArrays {
 /// from above, start at their smallest vertex id, and are sorted, so equal input gives equal bytes.
 /// A vertex may be in no triangle. The surface need not be convex or connected; at a vertex several fans may
 /// meet. Halfedge h = 3 t + i runs from corner i of triangle t to corner (i + 1) % 3, triangle t to its left.
-/// Memory: about 110 bytes a vertex.
+/// Memory: about 80 bytes a vertex, and 28 more from the time on when fans are first asked for.
 class Tin {
  public:
   Tin() = default;
@@ -61,12 +59,8 @@ class Tin {
   /// bounded vertex degree.
   Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
       std::span<const ConstraintEdge> constraints);
-  /// The same from triangles whose neighbours are known: nothing is searched. Points and heights are those of
-  /// the ids in the TIN. Pre: twins belong together, numbers are a permutation. Throws: Error{Cancelled};
-  /// Error{InvalidTin} if a constraint edge is no edge of any triangle. Complexity: linear for bounded
-  /// degree.
-  Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangles linked,
-      std::span<const ConstraintEdge> constraints, const Progress& progress);
+  /// Takes triangles that are sorted and linked; nothing of that is checked. Complexity: constant.
+  Tin(std::vector<Point2> points, std::vector<double> heights, LinkedTriangles triangles);
 
   [[nodiscard]] std::size_t vertex_count() const { return points_.size(); }
   [[nodiscard]] std::size_t triangle_count() const { return triangles_.size(); }
@@ -102,19 +96,21 @@ class Tin {
   [[nodiscard]] bool constrained(HalfedgeId h) const { return kinds_[h.index()] != EdgeKind::None; }
   /// True for the one halfedge that stands for its edge (the lower of the two).
   [[nodiscard]] bool represents_edge(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
-  /// All halfedges that start at v, in no promised order.
+  /// All halfedges that start at v, in no promised order. The first call, by whatever thread, lists those of
+  /// all vertices; so does that of `find_halfedge`.
   [[nodiscard]] std::span<const HalfedgeId> outgoing(VertexId v) const {
-    return std::span(outgoing_).subspan(first_outgoing_[v.index()],
-                                        first_outgoing_[v.index() + 1] - first_outgoing_[v.index()]);
+    const Fans& all = fans();
+    return std::span(all.outgoing)
+        .subspan(all.first[v.index()], all.first[v.index() + 1] - all.first[v.index()]);
   }
   /// The halfedge from a to b, or an invalid id. Complexity: at most logarithmic in the degree of a.
   [[nodiscard]] HalfedgeId find_halfedge(VertexId a, VertexId b) const;
+  /// For each vertex: 1 if it is in a triangle, else 0. Complexity: linear; runs on all threads.
+  [[nodiscard]] std::vector<std::uint8_t> vertices_in_triangles() const;
   /// For each vertex: true if it lies on the rim, or in no triangle. Complexity: linear.
   [[nodiscard]] std::vector<bool> rim_vertices() const;
   /// What the TIN is made of (without `constraints`: `kinds` says the same). Valid as long as the TIN.
-  [[nodiscard]] TinArrays arrays() const {
-    return {points_, heights_, triangles_, {}, twins_, kinds_, first_outgoing_, outgoing_};
-  }
+  [[nodiscard]] TinArrays arrays() const { return {points_, heights_, triangles_, {}, twins_, kinds_}; }
   /// The constraint edges, a < b, sorted. Complexity: linear.
   [[nodiscard]] std::vector<ConstraintEdge> constraint_edges() const;
   /// The same TIN with other heights. Throws: Error{InvalidTin} unless there is one a vertex. Complexity: a
@@ -122,12 +118,17 @@ class Tin {
   [[nodiscard]] Tin with_heights(std::vector<double> heights) const;
 
  private:
-  friend Tin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
+  friend struct FlippedTin flip_edges(Tin tin, std::span<const HalfedgeId> edges);
   friend struct RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress& progress);
-  /// As the constructor from linked triangles; returns for each given triangle what its first halfedge is
-  /// now.
-  RawVector<HalfedgeId> take(LinkedTriangles linked, const Progress& progress);
-  void list_fans(const Progress& progress);
+  /// Halfedges by their origin.
+  struct Fans {
+    std::vector<std::uint32_t> first;  ///< for each vertex where its part of `outgoing` starts; then its end
+    RawVector<HalfedgeId> outgoing;
+  };
+  const Fans& fans() const {
+    return fans_.get([this] { return list_fans(); });
+  }
+  [[nodiscard]] Fans list_fans() const;
   void link_halfedges();
   void mark_constraints(std::span<const ConstraintEdge> constraints);
 
@@ -136,9 +137,8 @@ class Tin {
   RawVector<Triangle> triangles_;
   RawVector<HalfedgeId> twins_;
   RawVector<EdgeKind> kinds_;
-  std::vector<std::uint32_t> first_outgoing_ = {0};
-  RawVector<HalfedgeId> outgoing_;
   std::size_t edge_count_ = 0;
+  Lazy<Fans> fans_;
 };
 
 }  // namespace thalweg

@@ -38,8 +38,6 @@ inline constexpr int kConstraintNoEdge = 111;
 inline constexpr int kTwinWrong = 112;
 /// The two sides of an edge differ in kind.
 inline constexpr int kKindsDiffer = 113;
-/// A vertex does not list exactly the halfedges that start at it.
-inline constexpr int kFanWrong = 114;
 /// A vertex is in no triangle (only if asked).
 inline constexpr int kIsolatedVertex = 115;
 /// Parallel arrays differ in length.

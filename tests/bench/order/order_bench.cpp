@@ -144,7 +144,7 @@ void tin_orders(benchmark::State& state, Scene scene, OrderDefinition definition
   for (const Quadrilateral& q : find_quadrilaterals(delaunay, {.definition = flipped}, Progress())) {
     if (++i % 2 == 0) flips.push_back(q.diagonal);
   }
-  const Tin tin = flip_edges(delaunay, flips);
+  const Tin tin = flip_edges(delaunay, flips).tin;
   const std::vector<ConstraintEdge> edges = tin.constraint_edges();
   const std::vector<Point2> points(tin.points().begin(), tin.points().end());
   const std::vector<double> heights(points.size(), 0.0);

@@ -138,13 +138,13 @@ TEST(Tin, EmptyTinsAreTins) {
 TEST(FlipEdges, ReplacesADiagonalAndKeepsConstraints) {
   const Tin tin = square();
   const std::vector<HalfedgeId> diagonal{tin.find_halfedge(VertexId{2}, VertexId{0})};
-  const Tin flipped = flip_edges(tin, diagonal);
+  const Tin flipped = flip_edges(tin, diagonal).tin;
   EXPECT_THAT(flipped.triangles(), ElementsAre(triangle(0, 1, 3), triangle(1, 2, 3)));
   EXPECT_EQ(flipped.kind(flipped.find_halfedge(VertexId{3}, VertexId{0})), EdgeKind::Valley);
   EXPECT_TRUE(validate(flipped).empty());
   const std::vector<HalfedgeId> back{flipped.find_halfedge(VertexId{1}, VertexId{3})};
-  EXPECT_TRUE(std::ranges::equal(flip_edges(flipped, back).triangles(), tin.triangles()));
-  EXPECT_TRUE(std::ranges::equal(flip_edges(tin, {}).triangles(), tin.triangles()));
+  EXPECT_TRUE(std::ranges::equal(flip_edges(flipped, back).tin.triangles(), tin.triangles()));
+  EXPECT_TRUE(std::ranges::equal(flip_edges(tin, {}).tin.triangles(), tin.triangles()));
 }
 
 TEST(FlipEdges, RimAndConstraintEdgesStay) {

@@ -29,8 +29,6 @@ struct Mesh {
   std::vector<Point2> written;
   std::vector<HalfedgeId> twins;
   std::vector<EdgeKind> kinds;
-  std::vector<std::uint32_t> first_outgoing;
-  std::vector<HalfedgeId> outgoing;
   IsolatedVertices isolated = IsolatedVertices::Allow;
 
   // Takes what a Tin derives from the triangles.
@@ -39,16 +37,13 @@ struct Mesh {
     const TinArrays arrays = tin.arrays();
     twins.assign(arrays.twins.begin(), arrays.twins.end());
     kinds.assign(arrays.kinds.begin(), arrays.kinds.end());
-    first_outgoing.assign(arrays.first_outgoing.begin(), arrays.first_outgoing.end());
-    outgoing.assign(arrays.outgoing.begin(), arrays.outgoing.end());
   }
   void add(Point2 p) {
     points.push_back(p);
     heights.push_back(0);
   }
   [[nodiscard]] std::vector<Violation> violations() const {
-    return validate({points, heights, triangles, constraints, twins, kinds, first_outgoing, outgoing},
-                    written, isolated);
+    return validate({points, heights, triangles, constraints, twins, kinds}, written, isolated);
   }
   [[nodiscard]] std::vector<int> codes() const {
     std::vector<int> codes;
@@ -220,19 +215,6 @@ TEST(Validate, Law113BothSidesHaveOneKind) {
   EXPECT_THAT(mesh.violations()[0].what, HasSubstr("0, 2"));
 }
 
-TEST(Validate, Law114VerticesListTheirHalfedges) {
-  Mesh mesh;
-  mesh.derive();
-  std::swap(mesh.outgoing.front(), mesh.outgoing.back());
-  EXPECT_THAT(mesh.codes(), ElementsAre(114, 114));
-  mesh.derive();
-  mesh.outgoing[1] = mesh.outgoing[0];
-  EXPECT_THAT(mesh.codes(), ElementsAre(114));
-  mesh.derive();
-  mesh.first_outgoing[1] = 99;
-  EXPECT_THAT(mesh.codes(), ElementsAre(114, 114));
-}
-
 TEST(Validate, Law115VerticesAreInATriangleIfAsked) {
   Mesh mesh;
   mesh.add({9, 9});
@@ -252,8 +234,7 @@ TEST(Validate, Law116ArraysAreEquallyLong) {
   mesh.derive();
   mesh.twins.pop_back();
   mesh.kinds.pop_back();
-  mesh.first_outgoing.pop_back();
-  EXPECT_THAT(mesh.codes(), ElementsAre(116, 116, 116));
+  EXPECT_THAT(mesh.codes(), ElementsAre(116, 116));
 }
 
 TEST(Validate, ManyViolationsAreCountedNotListed) {

@@ -90,7 +90,7 @@ TEST(SourceError, IsMeasuredOnTheFlippedTin) {
     for (const Quadrilateral& q : scene.quadrilaterals) {
       if (random.integer(0, 1) == 1) flips.push_back(q.diagonal);
     }
-    const Tin after = flip_edges(scene.tin, flips);
+    const Tin after = flip_edges(scene.tin, flips).tin;
     const LeftOutPoints moved = relocated(points, scene.tin, after);
     const SourceError error = measure_error(after, moved);
     long double largest = 0, squares = 0;

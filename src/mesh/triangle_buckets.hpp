@@ -1,0 +1,92 @@
+#pragma once
+
+/// Buckets of triangles by their smallest id, for sorting them.
+
+#include "base/prefetch.hpp"
+
+#include <thalweg/mesh/tin.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace thalweg {
+
+// Vertices, or triangles, that a thread takes at once.
+inline constexpr std::size_t kVerticesAtOnce = 8192;
+// About how many triangles tell the limits of ranges.
+inline constexpr std::size_t kTrianglesSampled = 1024;
+
+/// Limits of ranges of ids that are the smallest one of about as many triangles each: if ids are strewn, low
+/// ones are so often. `sample`: the smallest ids of some triangles.
+std::vector<std::size_t> even_limits(std::vector<VertexId> sample, std::size_t vertex_count);
+
+/// A side of a triangle of a source.
+struct SourceSide {
+  std::size_t triangle = 0;
+  std::uint32_t side = 0;
+};
+
+/// What a triangle of a source has become: which one, and which of its corners the first corner is now.
+class TurnedTriangle {
+ public:
+  TurnedTriangle() = default;
+  TurnedTriangle(std::size_t triangle, std::size_t first)
+      : value_(static_cast<std::uint32_t>(4 * triangle + first)) {}
+  [[nodiscard]] bool exists() const { return value_ != kNone; }
+  [[nodiscard]] TriangleId triangle() const { return TriangleId{value_ >> 2U}; }
+  /// What its halfedge of corner i is now.
+  [[nodiscard]] HalfedgeId halfedge(std::uint32_t i) const {
+    constexpr std::uint32_t kTurned = 0b01'00'10'01'00U;  // (first + i) % 3, two bits each
+    return HalfedgeId{3 * std::size_t{value_ >> 2U} + (kTurned >> (2 * ((value_ & 3U) + i)) & 3U)};
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+  std::uint32_t value_ = kNone;
+};
+
+/// Buckets of triangles by their smallest ids, while they are filled and sorted.
+struct TriangleBuckets {
+  std::span<Triangle> triangles;
+  std::span<std::uint32_t> end;  ///< for each id where its bucket ends
+  [[nodiscard]] std::size_t begin_of(std::size_t v) const { return v == 0 ? 0 : end[v - 1]; }
+};
+
+/// Puts triangles into buckets: some at a time, so that memory is asked for before it is needed.
+class BucketFiller {
+ public:
+  explicit BucketFiller(TriangleBuckets buckets) : buckets_(buckets) {}
+  /// Triangle t of a source, with corners a, b, c, counter-clockwise. The bucket, which `end` says to end
+  /// where it starts, grows.
+  void add(std::size_t t, VertexId a, VertexId b, VertexId c) {
+    const std::size_t corner = b < a ? (c < b ? 2 : 1) : (c < a ? 2 : 0);
+    const VertexId first = corner == 0 ? a : corner == 1 ? b : c;
+    first_[count_] = first;
+    // In place of the smallest id, which the bucket tells: where the triangle is in the source, and its
+    // corner.
+    waiting_[count_][0] = VertexId{3 * t + corner};
+    waiting_[count_][1] = corner == 0 ? b : corner == 1 ? c : a;
+    waiting_[count_][2] = corner == 0 ? c : corner == 1 ? a : b;
+    prefetch_to_write(&buckets_.end[first.index()]);
+    if (++count_ == kMost) flush();
+  }
+  /// To be called last.
+  void flush();
+
+ private:
+  static constexpr std::size_t kMost = 64;
+
+  TriangleBuckets buckets_;
+  std::size_t count_ = 0;
+  std::array<VertexId, kMost> first_;
+  std::array<Triangle, kMost> waiting_;
+};
+
+/// Sorts the buckets of vertices [begin, end), and makes their triangles what they are to be; notes in
+/// `moved` for each of the source what it is now.
+void settle_buckets(TriangleBuckets buckets, std::size_t begin, std::size_t end,
+                    std::span<TurnedTriangle> moved);
+
+}  // namespace thalweg
