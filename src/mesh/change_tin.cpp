@@ -117,7 +117,9 @@ RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress
   release(given.triangles);
   result.tin = {std::move(points), std::move(heights), link_triangles(given, sorted, progress)};
   result.place.resize(sorted.moved.size());
-  std::ranges::transform(sorted.moved, result.place.begin(), &TurnedTriangle::triangle);
+  for_each_block(result.place.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) result.place[t] = sorted.moved[t].triangle();
+  });
   return result;
 }
 

@@ -4,12 +4,15 @@
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"
 
+#include <thalweg/base/raw_vector.hpp>
+
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,8 +27,8 @@ class Sha256 {
     EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
   }
   template <std::size_t Count>
-  void add(const std::vector<std::array<double, Count>>& rows) {
-    EVP_DigestUpdate(context_.get(), rows.data(), rows.size() * sizeof(rows[0]));
+  void add(std::span<const std::array<double, Count>> rows) {
+    EVP_DigestUpdate(context_.get(), rows.data(), rows.size_bytes());
   }
   std::string hexadecimal() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
@@ -43,9 +46,9 @@ class Sha256 {
 using Row = std::array<double, 3>;
 
 /// Position and height of all vertices, sorted: by x into buckets, then each of these.
-std::vector<Row> sorted_rows(std::span<const Point2> xy, std::span<const double> heights) {
+RawVector<Row> sorted_rows(std::span<const Point2> xy, std::span<const double> heights) {
   constexpr std::size_t kBlock = 4096;
-  std::vector<Row> rows(xy.size());
+  RawVector<Row> rows(xy.size());
   const Buckets buckets =
       sort_into_buckets(xy.size(), xy.size() / 2 + 1, [&](std::size_t v) { return xy[v].x; });
   for_each_block(buckets.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
@@ -66,7 +69,7 @@ std::vector<Row> sorted_rows(std::span<const Point2> xy, std::span<const double>
 std::string digest_of(const Tin& tin, std::span<const Point2> written) {
   const std::span<const Point2> xy = written.empty() ? tin.points() : written;
   Sha256 digest;
-  digest.add(sorted_rows(xy, tin.heights()));
+  digest.add<3>(sorted_rows(xy, tin.heights()));
 
   std::vector<std::pair<Point2, Point2>> edges;
   for (const ConstraintEdge& edge : tin.constraint_edges()) {
@@ -76,7 +79,7 @@ std::string digest_of(const Tin& tin, std::span<const Point2> written) {
   std::vector<std::array<double, 4>> ends;
   ends.reserve(edges.size());
   for (const auto& [low, high] : edges) ends.push_back({low.x, low.y, high.x, high.y});
-  digest.add(ends);
+  digest.add<4>(ends);
   return digest.hexadecimal();
 }
 

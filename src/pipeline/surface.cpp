@@ -203,9 +203,11 @@ Consistency consistency_of(const Tin& tin, const Terrain& terrain, const RunCont
 /// What is told of the Delaunay triangulation next to the result. Returns its pits if a picture wants them.
 std::vector<std::uint8_t> describe_delaunay(const Labelled& labelled, const Terrain& terrain,
                                             const RunContext& run, Report& report) {
-  const PitSummary pits = find_pits(labelled.delaunay);
+  PitSummary pits;
+  tbb::parallel_invoke(
+      [&] { pits = find_pits(labelled.delaunay); },
+      [&] { report.tin.angle_histogram_delaunay = measure_angles(labelled.delaunay, run.plane.scale()); });
   report.pits_delaunay = describe_pits(pits);
-  report.tin.angle_histogram_delaunay = measure_angles(labelled.delaunay, run.plane.scale());
   if (draws_water(labelled.delaunay)) {
     report.consistency = {consistency_of(labelled.delaunay, terrain, run), {}};
   }
@@ -236,11 +238,24 @@ void flip_chosen(Labelled& labelled, const Terrain& terrain, const RunContext& r
   report.simplification->rms_error_m = {delaunay.rms * unit, result.rms * unit};
 }
 
-void describe_result(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
-                     const PitSummary& pits, Report& report) {
+void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
+  for (const CriterionResult& c : result.criteria) {
+    if (c.name != "local-minima" || c.result == static_cast<double>(pits.interior)) continue;
+    throw Error(ErrorCode::Internal, "the optimiser counts " + std::to_string(c.result) +
+                                         " pits, the TIN has " + std::to_string(pits.interior));
+  }
+}
+
+/// Refuses a TIN that breaks a law, and measures it; returns its pits.
+PitSummary describe_result(const Labelled& labelled, const Terrain& terrain, const RunContext& run,
+                           Report& report, const Progress& progress) {
+  PitSummary pits;
   ReportTin tin;
-  tbb::parallel_invoke([&] { report.digest = digest_of(labelled.tin, terrain.written); },
-                       [&] { tin = describe_tin(labelled.tin, run.plane, terrain.written); });
+  tbb::parallel_invoke([&] { refuse_violations(labelled.tin, terrain, progress); },
+                       [&] { report.digest = digest_of(labelled.tin, terrain.written); },
+                       [&] { tin = describe_tin(labelled.tin, run.plane, terrain.written); },
+                       [&] { pits = find_pits(labelled.tin); });
+  check_pit_count(labelled.result, pits);
   tin.dropped_rim_triangles = report.tin.dropped_rim_triangles;
   tin.vertices_left_out = report.tin.vertices_left_out;
   tin.angle_histogram_delaunay = report.tin.angle_histogram_delaunay;
@@ -255,6 +270,7 @@ void describe_result(const Labelled& labelled, const Terrain& terrain, const Run
   report.criteria = describe_criteria(labelled.result);
   report.pits_result = describe_pits(pits);
   if (report.consistency) report.consistency->result = consistency_of(labelled.tin, terrain, run);
+  return pits;
 }
 
 /// Which heights changed, under the ids of the outputs.
@@ -312,9 +328,9 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t>
   RenumberedTin renumbered_tin = renumber(std::move(built.tin), number, progress);
   built.tin = std::move(renumbered_tin.tin);
   built.orders.resize(orders.size());
-  for (std::size_t t = 0; t < orders.size(); ++t) {
-    built.orders[renumbered_tin.place[t].index()] = orders[t];
-  }
+  for_each_block(orders.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) built.orders[renumbered_tin.place[t].index()] = orders[t];
+  });
   built.written = renumbered<Point2>(built.written, number);
   built.vertex_source = renumbered<std::uint8_t>(built.vertex_source, number);
   if (!outcome.pits_before.empty())
@@ -325,14 +341,6 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t>
   }
   tbb::parallel_sort(outcome.new_diagonals.begin(), outcome.new_diagonals.end());
   return outcome;
-}
-
-void check_pit_count(const OptimizeResult& result, const PitSummary& pits) {
-  for (const CriterionResult& c : result.criteria) {
-    if (c.name != "local-minima" || c.result == static_cast<double>(pits.interior)) continue;
-    throw Error(ErrorCode::Internal, "the optimiser counts " + std::to_string(c.result) +
-                                         " pits, the TIN has " + std::to_string(pits.interior));
-  }
 }
 
 void refuse_with_faces(const Terrain& terrain, const RunContext& run) {
@@ -399,11 +407,7 @@ void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progres
   progress.advance(0.2);
   flip_chosen(labelled, terrain, run, report);
   progress.advance(0.4);
-  refuse_violations(labelled.tin, terrain, progress);
-  progress.advance(0.6);
-  PitSummary pits = find_pits(labelled.tin);
-  check_pit_count(labelled.result, pits);
-  describe_result(labelled, terrain, run, pits, report);
+  PitSummary pits = describe_result(labelled, terrain, run, report, progress);
   describe_changes(labelled, terrain, run, report);
   progress.advance(1);
   report.timings_s.check = run.watch.lap();
