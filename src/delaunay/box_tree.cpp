@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace thalweg {
 
@@ -28,30 +29,51 @@ double narrow_extent(const Segment& s) {
 
 }  // namespace
 
-TouchedSquares::TouchedSquares(std::span<const Box2> boxes) {
-  constexpr double kSquaresABox = 64, kMostTouchedABox = 64;
-  for (const Box2& box : boxes) {
-    box_.add({box.x_min, box.y_min});
-    box_.add({box.x_max, box.y_max});
+TouchedSquares::TouchedSquares(std::span<const Segment> segments, double margin) {
+  constexpr double kSquaresASegment = 64, kMostTouchedASegment = 64;
+  for (const Segment& segment : segments) {
+    for (const Point2 p : {segment.a, segment.b}) {
+      box_.add({p.x - margin, p.y - margin});
+      box_.add({p.x + margin, p.y + margin});
+    }
   }
-  const auto count = static_cast<double>(boxes.size());
-  side_ = static_cast<std::size_t>(std::sqrt(kSquaresABox * count)) + 1;
+  const auto count = static_cast<double>(segments.size());
+  side_ = static_cast<std::size_t>(std::sqrt(kSquaresASegment * count)) + 1;
   x_scale_ = box_.width() > 0 ? static_cast<double>(side_) / box_.width() : 0;
   y_scale_ = box_.height() > 0 ? static_cast<double>(side_) / box_.height() : 0;
   if (!std::isfinite(x_scale_) || !std::isfinite(y_scale_)) return;
   touched_.assign(side_ * side_, false);
-  double touched = 0;
-  for (const Box2& box : boxes) {
-    const std::size_t first = column_of(box.x_min), last = column_of(box.x_max), last_row = row_of(box.y_max);
-    for (std::size_t row = row_of(box.y_min); row <= last_row; ++row) {
-      touched += static_cast<double>(last - first + 1);
-      if (touched > kMostTouchedABox * count) {
-        touched_.clear();
-        return;
-      }
-      std::fill(touched_.begin() + row * side_ + first, touched_.begin() + row * side_ + last + 1, true);
-    }
+  std::size_t touched = 0;
+  for (const Segment& segment : segments) {
+    touched += touch(segment, margin);
+    if (static_cast<double>(touched) <= kMostTouchedASegment * count) continue;
+    touched_.clear();
+    return;
   }
+}
+
+// Row by row, what lies between the row's borders. Everything is a part of a square wider than it is, far
+// more than what rounding moves it.
+std::size_t TouchedSquares::touch(const Segment& segment, double margin) {
+  constexpr double kWider = 0x1p-6;
+  double x = (segment.a.x - box_.x_min) * x_scale_, y = (segment.a.y - box_.y_min) * y_scale_;
+  double x_end = (segment.b.x - box_.x_min) * x_scale_, y_end = (segment.b.y - box_.y_min) * y_scale_;
+  if (y_end < y) std::swap(x, x_end), std::swap(y, y_end);
+  const double x_pad = margin * x_scale_ + kWider, y_pad = margin * y_scale_ + kWider;
+  const auto x_at = [&](double at) {
+    return y_end > y ? x + (x_end - x) * std::clamp((at - y) / (y_end - y), 0.0, 1.0) : x;
+  };
+  std::size_t touched = 0;
+  const std::size_t last_row = square_at(y_end + y_pad);
+  for (std::size_t row = square_at(y - y_pad); row <= last_row; ++row) {
+    const double border = static_cast<double>(row);
+    const double in = x_at(border - y_pad), out = y_end > y ? x_at(border + 1 + y_pad) : x_end;
+    const std::size_t first = square_at(std::min(in, out) - x_pad),
+                      last = square_at(std::max(in, out) + x_pad);
+    touched += last - first + 1;
+    std::fill(touched_.begin() + row * side_ + first, touched_.begin() + row * side_ + last + 1, true);
+  }
+  return touched;
 }
 
 BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> items,
@@ -106,7 +128,7 @@ BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress
     }
   }
   BoxTree tree(boxes, items, progress);
-  tree.squares_ = TouchedSquares(boxes);
+  tree.squares_ = TouchedSquares(segments, margin);
   return tree;
 }
 

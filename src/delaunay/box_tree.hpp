@@ -23,14 +23,15 @@ inline Box2 box_around(Point2 p, double margin) {
   return {p.x - margin, p.y - margin, p.x + margin, p.y + margin};
 }
 
-/// Squares of the plane, and which of them boxes touch: for queries far from all of them. Made for none,
+/// Squares of the plane, and which of them segments touch: for queries far from all of them. Made for none,
 /// every query may meet some.
 class TouchedSquares {
  public:
   TouchedSquares() = default;
-  /// About 64 squares a box. If boxes cover too many of them, it is as if made for none.
-  explicit TouchedSquares(std::span<const Box2> boxes);
-  /// False only if no box meets the query.
+  /// About 64 squares a segment, which is as wide as the margin on either side. If segments touch too many of
+  /// them, it is as if made for none.
+  TouchedSquares(std::span<const Segment> segments, double margin);
+  /// False only if no segment meets the query.
   [[nodiscard]] bool may_meet(const Box2& query) const {
     if (touched_.empty()) return true;
     const std::size_t column = column_of(query.x_min), row = row_of(query.y_min);
@@ -41,11 +42,13 @@ class TouchedSquares {
   }
 
  private:
-  [[nodiscard]] std::size_t step(double offset, double scale) const {
-    return static_cast<std::size_t>(std::clamp(offset * scale, 0.0, static_cast<double>(side_ - 1)));
+  /// The column or row of a place in units of squares.
+  [[nodiscard]] std::size_t square_at(double place) const {
+    return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(side_ - 1)));
   }
-  [[nodiscard]] std::size_t column_of(double x) const { return step(x - box_.x_min, x_scale_); }
-  [[nodiscard]] std::size_t row_of(double y) const { return step(y - box_.y_min, y_scale_); }
+  [[nodiscard]] std::size_t column_of(double x) const { return square_at((x - box_.x_min) * x_scale_); }
+  [[nodiscard]] std::size_t row_of(double y) const { return square_at((y - box_.y_min) * y_scale_); }
+  std::size_t touch(const Segment& segment, double margin);
 
   Box2 box_;
   double x_scale_ = 0, y_scale_ = 0;
@@ -66,7 +69,8 @@ class BoxTree {
   [[nodiscard]] const Box2& box(std::size_t i) const { return levels_.front()[i]; }
   [[nodiscard]] std::uint32_t item(std::size_t i) const { return items_[i]; }
 
-  /// Calls `visitor(item)` for each box that meets the query (closed), in the tree's order.
+  /// Calls `visitor(item)` for each box that meets the query (closed), in the tree's order; over segments it
+  /// may leave out those that do not meet the query themselves.
   template <class Visitor>
   void visit(const Box2& query, const Visitor& visitor) const {
     if (levels_.empty() || !squares_.may_meet(query)) return;

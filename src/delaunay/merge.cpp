@@ -151,7 +151,9 @@ std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const 
   Window window(snap);
   std::size_t next = 0;
   for (const Placed& p : sorted) {
-    for (; next < points.size() && points[next].xy.x <= p.xy.x + snap; ++next) window.add(points[next]);
+    for (; next < points.size() && points[next].xy.x <= p.xy.x + snap; ++next) {
+      if (points[next].xy.x >= p.xy.x - snap) window.add(points[next]);
+    }
     window.drop_below(p.xy.x - snap);
     const auto nearer = [&p](const Placed& a, const Placed& b) {
       const double d_a = Window::squared_distance(a.xy, p.xy);

@@ -71,6 +71,7 @@ class QuadrilateralSearch {
   [[nodiscard]] Verdict judge_others(const Half& half) const;
   [[nodiscard]] Verdict judge(const Half& half, VertexId x) const;
   [[nodiscard]] Verdict weigh(const Triangle& corners, VertexId x) const;
+  [[nodiscard]] Verdict weigh_beyond(const Half& half, std::size_t i) const;
   [[nodiscard]] bool fits(const Half& half, Verdict beyond, OrderWorkspace& workspace) const;
 
   const Tin& tin_;
@@ -88,12 +89,29 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::weigh(const Triangle& corners,
   return beyond_st && order_.sees(x, corners[1]) ? Verdict::Refused : Verdict::Unclear;
 }
 
+// The same for the vertex across a side at the inner vertex. Where what joins it to the opposite corner
+// crosses that side, nothing else can be in the way: from there on it runs within the quadrilateral.
+QuadrilateralSearch::Verdict QuadrilateralSearch::weigh_beyond(const Half& half, std::size_t i) const {
+  const auto& [a, b, c] = half.corners;
+  const VertexId x = half.beyond[i];
+  if (definition_ <= OrderDefinition::SeesOpp && !order_.unconstrained()) {
+    const Point2 from = tin_.point(x), to = tin_.point(b);
+    const int of_outer = orientation(from, to, tin_.point(i == 0 ? a : c));
+    const int of_inner = orientation(from, to, tin_.point(half.inner));
+    const bool beyond_st = orientation(tin_.point(c), tin_.point(a), from) < 0;
+    if (beyond_st && of_outer * of_inner < 0) {
+      return tin_.constrained(i == 0 ? half.side : half.last) ? Verdict::Unclear : Verdict::Refused;
+    }
+  }
+  return weigh(half.corners, x);
+}
+
 // The vertices across the two sides at the inner vertex, as far as the filter found them inside.
 QuadrilateralSearch::Verdict QuadrilateralSearch::judge_inside(const Half& half) const {
   Verdict worst = Verdict::Fits;
   for (std::size_t i = 0; i < 2 && worst != Verdict::Refused; ++i) {
     if (half.inside[i] != kInside || is_corner(half, half.beyond[i])) continue;
-    worst = std::max(worst, weigh(half.corners, half.beyond[i]));
+    worst = std::max(worst, weigh_beyond(half, i));
   }
   return worst;
 }
