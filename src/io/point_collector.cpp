@@ -13,8 +13,8 @@ namespace thalweg {
 
 namespace {
 
-// A TIN of n vertices has fewer than 6 n halfedges, whose ids have 32 bits.
-constexpr std::size_t kMostPoints = std::numeric_limits<std::uint32_t>::max() / 6;
+// A triangulation of n vertices has fewer than 2 n triangles, whose sides are told by 32 bits, four each.
+constexpr std::size_t kMostPoints = std::numeric_limits<std::uint32_t>::max() / 8;
 
 }  // namespace
 

@@ -2,13 +2,12 @@
 
 /// Triangles in the order of a TIN: each from its smallest id on, sorted.
 ///
-/// They are read from a source, that is, whatever has
-///   size()       how many triangles there may be,
-///   corners(t)   those of triangle t, counter-clockwise from any one on; all invalid: there is no such
-///   triangle, twin(h)      of halfedge 3 t + i, from corner i of triangle t on, the one on the other side;
-///   invalid on the
-///                rim, or of a triangle that is not there,
-///   kind(h)      that of its edge.
+/// They are read from a source, which has
+/// - size(): how many triangles there may be;
+/// - exists(t): whether triangle t is one of them;
+/// - corner(t, i): its corners, counter-clockwise from any one on;
+/// - across(t, i): the side beyond that from corner i on; on the rim one of a triangle that is none of them;
+/// - kind(t, i): the kind of that edge.
 
 #include "base/parallel.hpp"
 #include "base/prefetch.hpp"
@@ -32,11 +31,12 @@ struct SortedCorners {
 };
 
 /// Sorts triangles of which vertex v is to be called number[v] (empty: v). Pre: corners are vertices, and
-/// the numbers a permutation of their ids. Throws: Error{Cancelled}. Complexity: linear for bounded degrees;
-/// runs on all threads.
+/// the numbers a permutation of their ids. Throws: Error{Cancelled}, {SizeLimit}. Complexity: linear for
+/// bounded degrees; runs on all threads.
 template <class Source>
 SortedCorners sort_triangles(const Source& source, std::span<const VertexId> number, std::size_t vertex_count,
                              const Progress& progress) {
+  check_triangle_count(source.size());
   const auto renamed = [&](std::size_t t, std::size_t i) {
     const VertexId v = source.corner(t, i);
     return number.empty() ? v : number[v.index()];
@@ -96,8 +96,7 @@ LinkedTriangles link_triangles(const Source& source, SortedCorners& sorted, cons
     std::size_t on_rim = 0;
     for (std::size_t t = begin; t < end; ++t) {
       if (t + kAhead < end && sorted.moved[t + kAhead].exists()) {
-        const std::size_t place = sorted.moved[t + kAhead].halfedge(0).index();
-        prefetch_to_write(&linked.twins[place]);
+        prefetch_to_write(&linked.twins[sorted.moved[t + kAhead].halfedge(0).index()]);
       }
       const TurnedTriangle now = sorted.moved[t];
       if (!now.exists()) continue;

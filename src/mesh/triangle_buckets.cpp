@@ -2,7 +2,10 @@
 
 #include "base/parallel.hpp"
 
+#include <thalweg/base/error.hpp>
+
 #include <algorithm>
+#include <string>
 #include <tuple>
 
 namespace thalweg {
@@ -27,6 +30,13 @@ void sort_bucket(std::span<Triangle> bucket) {
 }
 
 }  // namespace
+
+void check_triangle_count(std::size_t count) {
+  constexpr std::size_t kMost = (std::size_t{1} << 30U) - 1;
+  if (count <= kMost) return;
+  throw Error(ErrorCode::SizeLimit, "a TIN holds at most " + std::to_string(kMost) + " triangles, not " +
+                                        std::to_string(count) + "; split the area");
+}
 
 std::vector<std::size_t> even_limits(std::vector<VertexId> sample, std::size_t vertex_count) {
   std::sort(sample.begin(), sample.end());

@@ -18,6 +18,9 @@ inline constexpr std::size_t kVerticesAtOnce = 8192;
 // About how many triangles tell the limits of ranges.
 inline constexpr std::size_t kTrianglesSampled = 1024;
 
+/// Throws: Error{SizeLimit} from 2^30 triangles on, of which TurnedTriangle could not tell.
+void check_triangle_count(std::size_t count);
+
 /// Limits of ranges of ids that are the smallest one of about as many triangles each: if ids are strewn, low
 /// ones are so often. `sample`: the smallest ids of some triangles.
 std::vector<std::size_t> even_limits(std::vector<VertexId> sample, std::size_t vertex_count);

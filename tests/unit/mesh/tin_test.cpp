@@ -9,8 +9,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <set>
 #include <vector>
 
@@ -22,6 +25,7 @@ using test::make_tin;
 using test::triangle;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::UnorderedElementsAre;
 
 // 3---2
 // | / |    diagonal 0-2
@@ -132,19 +136,36 @@ TEST(Tin, EmptyTinsAreTins) {
   EXPECT_EQ(points_only.edge_count(), 0U);
   EXPECT_TRUE(points_only.outgoing(VertexId{3}).empty());
   EXPECT_THAT(points_only.rim_vertices(), ElementsAre(true, true, true, true));
+  EXPECT_THAT(points_only.vertices_in_triangles(), ElementsAre(0, 0, 0, 0));
   EXPECT_TRUE(rim_loops(points_only).empty());
 }
 
 TEST(FlipEdges, ReplacesADiagonalAndKeepsConstraints) {
   const Tin tin = square();
   const std::vector<HalfedgeId> diagonal{tin.find_halfedge(VertexId{2}, VertexId{0})};
-  const Tin flipped = flip_edges(tin, diagonal).tin;
+  const auto [flipped, diagonals] = flip_edges(tin, diagonal);
   EXPECT_THAT(flipped.triangles(), ElementsAre(triangle(0, 1, 3), triangle(1, 2, 3)));
+  ASSERT_EQ(diagonals.size(), 1U);
+  EXPECT_THAT((std::array{flipped.origin(diagonals[0]), flipped.target(diagonals[0])}),
+              UnorderedElementsAre(VertexId{1}, VertexId{3}));
   EXPECT_EQ(flipped.kind(flipped.find_halfedge(VertexId{3}, VertexId{0})), EdgeKind::Valley);
   EXPECT_TRUE(validate(flipped).empty());
   const std::vector<HalfedgeId> back{flipped.find_halfedge(VertexId{1}, VertexId{3})};
   EXPECT_TRUE(std::ranges::equal(flip_edges(flipped, back).tin.triangles(), tin.triangles()));
   EXPECT_TRUE(std::ranges::equal(flip_edges(tin, {}).tin.triangles(), tin.triangles()));
+}
+
+TEST(Tin, FansAreListedOnceWhicheverThreadsAsk) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  const Tin tin = test::random_lattice(40, 30, 5, random);
+  const Tin copy = tin;
+  std::atomic<std::size_t> spokes{0};
+  tbb::parallel_for(std::size_t{0}, tin.vertex_count(), [&](std::size_t v) {
+    for (const HalfedgeId h : tin.outgoing(VertexId{v})) spokes += tin.origin(h) == VertexId{v} ? 1 : 0;
+  });
+  EXPECT_EQ(spokes, tin.halfedge_count());
+  EXPECT_EQ(copy.outgoing(VertexId{0}).data(), tin.outgoing(VertexId{0}).data());
 }
 
 TEST(FlipEdges, RimAndConstraintEdgesStay) {

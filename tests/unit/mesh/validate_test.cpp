@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,13 @@ namespace {
 
 using test::edge;
 using test::triangle;
+using testing::AllOf;
 using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // A square of two triangles as arrays that a test may break.
 struct Mesh {
@@ -205,6 +209,34 @@ TEST(Validate, Law112TwinsAreTheOtherSides) {
   mesh.derive();
   mesh.twins[0] = HalfedgeId{5};
   EXPECT_THAT(mesh.codes(), ElementsAre(112));
+}
+
+TEST(Validate, ASurfaceThatWindsTwiceAboutAVertexOverlaps) {
+  constexpr std::size_t kSteps = 7;
+  Mesh mesh;
+  mesh.points.assign(1, {0, 0});
+  mesh.triangles.clear();
+  mesh.constraints.clear();
+  for (std::size_t i = 0; i < kSteps; ++i) {
+    const double angle = 4 * std::numbers::pi * static_cast<double>(i) / kSteps;
+    mesh.points.push_back({std::cos(angle), std::sin(angle)});
+    mesh.triangles.push_back(triangle(0, 1 + i, 1 + (i + 1) % kSteps));
+  }
+  mesh.heights.assign(mesh.points.size(), 0);
+  const auto overlap = AllOf(Not(IsEmpty()), Each(violation::kOverlap));
+  EXPECT_THAT(mesh.codes(), overlap);
+  mesh.derive();
+  EXPECT_THAT(mesh.codes(), overlap);
+}
+
+TEST(Validate, Law107TwoTrianglesOnOneSideAreFoundWhereTwinsAgree) {
+  Mesh mesh;
+  mesh.points = {{0, 0}, {4, 0}, {0, 4}, {1, 1}, {2, 1}};
+  mesh.heights.assign(5, 0);
+  mesh.constraints.clear();
+  mesh.triangles = {triangle(0, 1, 3), triangle(0, 1, 4)};
+  mesh.twins.assign(6, HalfedgeId{});
+  EXPECT_THAT(mesh.codes(), ElementsAre(violation::kSameSide));
 }
 
 TEST(Validate, Law113BothSidesHaveOneKind) {
