@@ -2,8 +2,6 @@
 
 /// The circles through two vertices: which vertices lie inside them, where nothing blocks.
 
-#include "order/stamped_map.hpp"
-
 #include <thalweg/mesh/tin.hpp>
 
 #include <cstddef>
@@ -50,44 +48,29 @@ class Pencil {
   struct Position {
     double along = 0;   ///< product of the vectors to it from both ends
     double across = 0;  ///< cross product of the edge and the vector from its start
-    double size = 0;    ///< of what these are sums of
-  };
-  /// An edge of a face that was met, to go on over.
-  struct Border {
-    HalfedgeId edge;
-    Position from, to;
+    double error = 0;   ///< of either at most
   };
   /// What lies left of the edge, or of its reverse.
   struct Side {
     Point2 from, to;
-    std::vector<VertexId> vertices;   ///< of the faces that the edge passes, along it
-    std::vector<Position> positions;  ///< of these
-    std::vector<HalfedgeId> borders;  ///< of these faces, along the edge: one more
-    std::vector<Beside> nearest;      ///< so far
-    std::vector<Beside> beyond;       ///< others that were met within the first limit
-    std::vector<Border> later;        ///< beyond it
-    StampedMap met;                   ///< triangles
+    std::vector<Beside> nearest;  ///< so far; the first ones, up to the next to settle, are those of all
+    std::size_t settled = 0;      ///< of these: their neighbours were met
     void start(Point2 at_from, Point2 at_to) {
       from = at_from;
       to = at_to;
-      vertices.clear();
-      positions.clear();
-      borders.clear();
       nearest.clear();
+      settled = 0;
     }
   };
 
   bool pass(VertexId u, VertexId v);
-  void begin(Side& side) const;
-  void put_borders(const Side& side);
   [[nodiscard]] bool few_inside(Side& side, const Beside& corner);
   void complete(Side& side);
-  template <class Limit, class Meet>
-  bool spread(Side& side, const Limit& limit, const Meet& meet);
-  void insert(const Beside& fresh, Side& side) const;
-  [[nodiscard]] std::optional<Beside> beside(const Side& side, VertexId x, const Position& at) const;
-  [[nodiscard]] double square_of(HalfedgeId edge) const;
-  [[nodiscard]] bool reaches(const Border& border, double cotangent) const;
+  template <class Stop>
+  bool settle(Side& side, const Stop& stop);
+  bool meet(VertexId x, Side& side) const;
+  bool insert(const Beside& fresh, Side& side) const;
+  [[nodiscard]] std::optional<Beside> beside(const Side& side, VertexId x) const;
   [[nodiscard]] Position position(Point2 from, Point2 to, VertexId x) const;
   [[nodiscard]] bool nearer(const Side& side, const Beside& one, const Beside& other) const;
   [[nodiscard]] bool inside(Point2 from, Point2 to, const Beside& corner, const Beside& x) const;
@@ -99,8 +82,6 @@ class Pencil {
   std::size_t most_;
   VertexId u_, v_;
   Side left_, right_;
-  std::vector<TriangleId> passed_;
-  std::vector<Border> pending_;
   std::vector<double> known_left_, known_right_;  ///< cotangents at most
 };
 
