@@ -65,7 +65,7 @@ void FaceModeller<Criteria>::weigh(std::uint32_t index) {
              between != SideWeights<Criteria>::kNone) {
     model_.coupled.push_back(index);
     weigh_coupled(group, sides_.first[between]);
-  } else if (const std::uint32_t fixed = terms_.sides.fixed[across]; fixed != FaceSides::kNoTriangle) {
+  } else if (const std::uint32_t fixed = terms_.sides.fixed(across); fixed != FaceSides::kNoTriangle) {
     const Face outside = face_of(terms_.tin, terms_.faces, fixed, terms_.scale);
     for (const std::uint32_t t : model_.members(group)) {
       const std::size_t i = model_.index_of(t);
@@ -134,7 +134,7 @@ SideWeights<Criteria> weigh_sides(const FaceTerms<Criteria>& terms, const Progre
   sides.index.assign(terms.faces.edges.size(), SideWeights<Criteria>::kNone);
   std::size_t count = 0;
   for (std::uint32_t e = 0; e < terms.faces.edges.size(); ++e) {
-    const std::uint32_t left = terms.sides.owner[2 * e], right = terms.sides.owner[2 * e + 1];
+    const std::uint32_t left = terms.sides.owner(2 * e), right = terms.sides.owner(2 * e + 1);
     if (left == right || left == FaceSides::kNoFace || right == FaceSides::kNoFace) continue;
     sides.index[e] = static_cast<std::uint32_t>(sides.edges.size());
     sides.edges.push_back(e);

@@ -92,7 +92,7 @@ struct FaceModel {
 template <std::size_t Criteria>
 class FaceModeller {
  public:
-  /// `links`: by candidate edge, as PlateauNodes::link_of; empty if pits are not counted.
+  /// `links`: by candidate edge, as PlateauNodes::link; empty if pits are not counted.
   FaceModeller(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
                std::span<const PlateauLink> links)
       : terms_(terms), sides_(sides), links_(links) {}

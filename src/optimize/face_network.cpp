@@ -47,13 +47,15 @@ class Builder {
 
   FaceNetwork<Criteria> run(PlateauNodes* pits, std::span<const PlateauSet> closed) {
     LabelNetwork<Criteria>& network = out_.network;
-    for (const FaceLabels<Criteria>& labels : faces_) {
-      network.unary.insert(network.unary.end(), labels.unary.begin(), labels.unary.end());
+    std::size_t labels = 0;
+    for (const FaceLabels<Criteria>& face : faces_) labels += face.unary.size();
+    network.unary.reserve(labels);
+    network.first_label.reserve(faces_.size() + 1);
+    for (const FaceLabels<Criteria>& face : faces_) {
+      network.unary.insert(network.unary.end(), face.unary.begin(), face.unary.end());
       take_out_least(network.unary, network.first_label.back());
       network.first_label.push_back(static_cast<std::uint32_t>(network.unary.size()));
     }
-    network.pairs.reserve(sides_.edges.size());
-    network.weights.reserve(sides_.weights.size());
     for (std::size_t i = 0; i < sides_.edges.size(); ++i) couple_faces(i);
     if (pits != nullptr) count_pits(*pits, closed);
     refuse_overflow();
@@ -61,12 +63,6 @@ class Builder {
   }
 
  private:
-  std::size_t add_classes(std::span<const std::uint16_t> classes) {
-    const std::size_t first = out_.network.classes.size();
-    out_.network.classes.insert(out_.network.classes.end(), classes.begin(), classes.end());
-    return first;
-  }
-
   static std::int64_t& part(Cost<Criteria>& cost, std::size_t level) { return cost.level[level]; }
   static std::int64_t& part(Weight<Criteria>& weight, std::size_t level) { return weight[level]; }
 
@@ -81,46 +77,84 @@ class Builder {
     }
   }
 
+  /// Labels of one variable by their class; `kept`: the classes that there are.
+  struct Column {
+    std::vector<std::uint16_t> place;  ///< by label, in `kept`
+    std::vector<std::uint16_t> kept;
+    void take(std::span<const std::uint16_t> classes) {
+      place.clear();
+      kept.clear();
+      for (const std::uint16_t known : classes) {
+        const auto at = std::find(kept.begin(), kept.end(), known);
+        place.push_back(static_cast<std::uint16_t>(at - kept.begin()));
+        if (at == kept.end()) kept.push_back(known);
+      }
+    }
+  };
+
+  // Adds a term of two variables, given the class of each of their labels: where all labels of one have the
+  // same class, it is a term of the other alone.
+  template <class WeightOf>
+  void couple(std::uint32_t a, std::span<const std::uint16_t> class_a, std::uint32_t b,
+              std::span<const std::uint16_t> class_b, const WeightOf& weight) {
+    LabelNetwork<Criteria>& network = out_.network;
+    of_a_.take(class_a);
+    of_b_.take(class_b);
+    const std::size_t first = network.weights.size();
+    for (const std::uint16_t p : of_a_.kept) {
+      for (const std::uint16_t q : of_b_.kept) network.weights.push_back(weight(p, q));
+    }
+    take_out_least(network.weights, first);
+    if (of_a_.kept.size() > 1 && of_b_.kept.size() > 1) {
+      network.pairs.push_back({.a = a,
+                               .b = b,
+                               .class_a = add_classes(of_a_.place),
+                               .class_b = add_classes(of_b_.place),
+                               .weight = first,
+                               .classes_a = static_cast<std::uint16_t>(of_a_.kept.size()),
+                               .classes_b = static_cast<std::uint16_t>(of_b_.kept.size())});
+      return;
+    }
+    const bool of_b = of_a_.kept.size() == 1;
+    const std::vector<std::uint16_t>& place = of_b ? of_b_.place : of_a_.place;
+    const std::uint32_t to = network.first_label[of_b ? b : a];
+    for (std::size_t i = 0; i < place.size(); ++i)
+      add(network.unary[to + i], network.weights[first + place[i]]);
+    network.weights.resize(first);
+  }
+
+  std::size_t add_classes(const std::vector<std::uint16_t>& classes) {
+    const std::size_t first = out_.network.classes.size();
+    out_.network.classes.insert(out_.network.classes.end(), classes.begin(), classes.end());
+    return first;
+  }
+
   [[nodiscard]] std::span<const std::uint16_t> column(std::uint32_t face, std::uint32_t side) const {
     const FaceLabels<Criteria>& labels = faces_[face];
     const auto at = std::lower_bound(labels.side.begin(), labels.side.end(), side);
     return labels.places(static_cast<std::size_t>(at - labels.side.begin()));
   }
 
-  // At an edge between two faces; a relaxed face has one class more there, the least of all.
+  // At an edge between two faces; the class of a relaxed face, one more than there are candidates, costs the
+  // least of these.
   void couple_faces(std::size_t i) {
-    LabelNetwork<Criteria>& network = out_.network;
     const std::uint32_t e = sides_.edges[i];
-    PairTerm pair{.a = terms_.sides.owner[2 * e], .b = terms_.sides.owner[2 * e + 1]};
+    const std::uint32_t a = terms_.sides.owner(2 * e), b = terms_.sides.owner(2 * e + 1);
     const std::size_t of_left = terms_.sides.triangles.row(2 * e).size();
     const std::size_t of_right = terms_.sides.triangles.row(2 * e + 1).size();
-    pair.class_a = add_classes(column(pair.a, 2 * e));
-    pair.class_b = add_classes(column(pair.b, 2 * e + 1));
-    pair.classes_a = static_cast<std::uint16_t>(of_left + (faces_[pair.a].relaxed ? 1 : 0));
-    pair.classes_b = static_cast<std::uint16_t>(of_right + (faces_[pair.b].relaxed ? 1 : 0));
-    pair.weight = network.weights.size();
-    const auto lower = [](Weight<Criteria>& least, const Weight<Criteria>& other, bool first) {
-      for (std::size_t level = 0; level < Criteria; ++level) {
-        least[level] = first ? other[level] : std::min(least[level], other[level]);
+    couple(a, column(a, 2 * e), b, column(b, 2 * e + 1), [&](std::size_t p, std::size_t q) {
+      if (p < of_left && q < of_right) return sides_.weights[sides_.first[i] + p * of_right + q];
+      Weight<Criteria> least;
+      least.fill(std::numeric_limits<std::int64_t>::max());
+      for (std::size_t x = p < of_left ? p : 0; x < (p < of_left ? p + 1 : of_left); ++x) {
+        for (std::size_t y = q < of_right ? q : 0; y < (q < of_right ? q + 1 : of_right); ++y) {
+          const Weight<Criteria>& other = sides_.weights[sides_.first[i] + x * of_right + y];
+          for (std::size_t level = 0; level < Criteria; ++level)
+            least[level] = std::min(least[level], other[level]);
+        }
       }
-    };
-    for (std::size_t p = 0; p < of_left; ++p) {
-      const auto first = sides_.weights.begin() + static_cast<std::ptrdiff_t>(sides_.first[i] + p * of_right);
-      network.weights.insert(network.weights.end(), first, first + static_cast<std::ptrdiff_t>(of_right));
-      if (pair.classes_b == of_right) continue;
-      Weight<Criteria> least{};
-      for (std::size_t q = 0; q < of_right; ++q) lower(least, first[static_cast<std::ptrdiff_t>(q)], q == 0);
-      network.weights.push_back(least);
-    }
-    for (std::size_t q = 0; q < pair.classes_b && pair.classes_a > of_left; ++q) {
-      Weight<Criteria> least{};
-      for (std::size_t p = 0; p < of_left; ++p) {
-        lower(least, network.weights[pair.weight + p * pair.classes_b + q], p == 0);
-      }
-      network.weights.push_back(least);
-    }
-    take_out_least(network.weights, pair.weight);
-    network.pairs.push_back(pair);
+      return least;
+    });
   }
 
   // Outlets of each node, and a variable for each node that has any.
@@ -180,7 +214,6 @@ class Builder {
   // The outlets begin to end of a node are of one face.
   void couple_outlets(std::uint32_t variable, std::size_t labels, std::span<const Outlet> list,
                       std::size_t begin, std::size_t end) {
-    LabelNetwork<Criteria>& network = out_.network;
     const FaceLabels<Criteria>& face = faces_[list[begin].face];
     std::vector<std::uint16_t> named(labels, 0), joined;
     for (std::size_t i = begin; i < end; ++i) named[i] = static_cast<std::uint16_t>(i - begin + 1);
@@ -192,20 +225,15 @@ class Builder {
       joined.push_back(static_cast<std::uint16_t>(known - pattern.begin()));
       if (known == pattern.end()) pattern.push_back(std::move(joins));
     }
-    PairTerm pair{.a = variable, .b = list[begin].face};
-    pair.class_a = add_classes(named);
-    pair.class_b = add_classes(joined);
-    pair.classes_a = static_cast<std::uint16_t>(end - begin + 1);
-    pair.classes_b = static_cast<std::uint16_t>(pattern.size());
-    pair.weight = network.weights.size();
-    network.weights.resize(network.weights.size() + pattern.size());
-    for (std::size_t i = 0; i < end - begin; ++i) {
-      for (const auto& joins : pattern) {
-        network.weights.emplace_back();
-        network.weights.back()[*terms_.pit_level] = joins[i] != 0 ? 0 : 1;
-      }
-    }
-    network.pairs.push_back(pair);
+    couple(variable, named, list[begin].face, joined, [&](std::size_t outlet, std::size_t joins) {
+      return pits(outlet > 0 && pattern[joins][outlet - 1] == 0);
+    });
+  }
+
+  [[nodiscard]] Weight<Criteria> pits(bool one) const {
+    Weight<Criteria> weight{};
+    weight[*terms_.pit_level] = one ? 1 : 0;
+    return weight;
   }
 
   // By label of the node's variable: 1 if its outlet leads to one of the targets.
@@ -217,16 +245,10 @@ class Builder {
     return leads;
   }
 
-  void couple_pair(std::uint32_t a, std::span<const std::uint16_t> class_a, std::uint32_t b,
-                   std::span<const std::uint16_t> class_b) {
-    LabelNetwork<Criteria>& network = out_.network;
-    PairTerm pair{.a = a, .b = b, .classes_a = 2, .classes_b = 2};
-    pair.class_a = add_classes(class_a);
-    pair.class_b = add_classes(class_b);
-    pair.weight = network.weights.size();
-    network.weights.resize(network.weights.size() + 4);
-    network.weights.back()[*terms_.pit_level] = 1;
-    network.pairs.push_back(pair);
+  // A pit if both are true.
+  void forbid(std::uint32_t a, std::span<const std::uint16_t> of_a, std::uint32_t b,
+              std::span<const std::uint16_t> of_b) {
+    couple(a, of_a, b, of_b, [&](std::size_t p, std::size_t q) { return pits(p == 1 && q == 1); });
   }
 
   void forbid_mutual(std::uint32_t node) {
@@ -237,8 +259,8 @@ class Builder {
     std::sort(targets.begin(), targets.end());
     targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
     for (const std::uint32_t other : targets) {
-      couple_pair(variable_[node], leading_to(node, [&](std::uint32_t t) { return t == other; }),
-                  variable_[other], leading_to(other, [&](std::uint32_t t) { return t == node; }));
+      forbid(variable_[node], leading_to(node, [&](std::uint32_t t) { return t == other; }), variable_[other],
+             leading_to(other, [&](std::uint32_t t) { return t == node; }));
     }
   }
 
@@ -247,9 +269,9 @@ class Builder {
     for (std::size_t i = 0; i < set.size(); ++i) {
       std::vector<std::uint16_t> named(set.size(), 0);
       named[i] = 1;
-      couple_pair(variable, named, variable_[set[i]], leading_to(set[i], [&](std::uint32_t target) {
-                    return std::binary_search(set.begin(), set.end(), target);
-                  }));
+      forbid(variable, named, variable_[set[i]], leading_to(set[i], [&](std::uint32_t target) {
+               return std::binary_search(set.begin(), set.end(), target);
+             }));
     }
   }
 
@@ -289,6 +311,7 @@ class Builder {
   const SideWeights<Criteria>& sides_;
   const std::vector<FaceLabels<Criteria>>& faces_;
   FaceNetwork<Criteria> out_;
+  Column of_a_, of_b_;                     ///< of the term that is added
   std::vector<Outlet> outlets_;            ///< by node and face
   std::vector<std::size_t> first_outlet_;  ///< by node
   std::vector<std::uint32_t> variable_;    ///< by node
@@ -406,7 +429,7 @@ SearchedFace search_fronts(const Tin& delaunay, const FixedFaces& faces, std::si
   auto graph = find_fronts(faces, face, {.work_limit = work_limit});
   const bool whole = graph.has_value();
   if (!whole) graph = search_part(delaunay, faces, face, work_limit);
-  if (graph) return {std::move(graph), whole};
+  if (graph) return {std::make_unique<const FrontGraph>(std::move(*graph)), whole};
   const Point2 at = delaunay.point(faces.triangles[faces.faces.row(face)[0]].corners[0]);
   throw Error(ErrorCode::SizeLimit,
               "the face between fixed edges at (" + std::to_string(at.x) + ", " + std::to_string(at.y) +
@@ -420,13 +443,12 @@ void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched
   // faces are looked at does not matter in the end.
   for (bool again = true; again;) {
     again = false;
-    std::vector<PlateauLink> links(faces.edges.size());
-    for (std::uint32_t e = 0; e < links.size(); ++e) links[e] = pits.link_of(e);
+    pits.follow_sets();
     std::vector<std::vector<PlateauLink>> found((searched.size() + kFaces - 1) / kFaces);
     for_each_block(searched.size(), kFaces, progress, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
         if (!searched[f].whole) continue;
-        const auto always = links_of_all(faces, f, graph_of(faces, searched, f), links);
+        const auto always = links_of_all(faces, f, graph_of(faces, searched, f), pits.link);
         found[begin / kFaces].insert(found[begin / kFaces].end(), always.begin(), always.end());
       }
     });

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,7 +38,7 @@ FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const Side
                                     std::span<const PlateauSet> closed);
 
 struct SearchedFace {
-  std::optional<FrontGraph> own;  ///< none: that of FixedFaces
+  std::unique_ptr<const FrontGraph> own;  ///< null: that of FixedFaces
   bool whole = true;              ///< whether it has all triangulations of the face
 };
 
@@ -57,7 +58,7 @@ inline const FrontGraph& graph_of(const FixedFaces& faces, std::span<const Searc
   return searched[face].own ? *searched[face].own : faces.fronts[face];
 }
 
-/// Joins nodes that every triangulation of some face joins. Complexity: arcs of all graphs and links of their
+/// Joins nodes that every triangulation of some face joins; links follow. Complexity: arcs of all graphs and links of their
 /// faces.
 void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits,
                  const Progress& progress);

@@ -23,10 +23,12 @@ struct PlateauNodes {
   UnionFind sets{0};              ///< of nodes
   std::vector<PlateauLink> link;  ///< by candidate edge; (0, 0) where it is fixed or of no use
 
-  /// The link of an edge between sets that are apart, or (0, 0).
-  [[nodiscard]] PlateauLink link_of(std::uint32_t edge) {
-    const std::uint32_t a = sets.find(link[edge].first), b = sets.find(link[edge].second);
-    return a == b ? PlateauLink{0, 0} : PlateauLink{std::max(a, b), std::min(a, b)};
+  /// Lets each link be between sets, or (0, 0) where these are the same.
+  void follow_sets() {
+    for (PlateauLink& here : link) {
+      const std::uint32_t a = sets.find(here.first), b = sets.find(here.second);
+      here = a == b ? PlateauLink{0, 0} : PlateauLink{std::max(a, b), std::min(a, b)};
+    }
   }
 };
 

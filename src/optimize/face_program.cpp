@@ -296,7 +296,7 @@ class FaceLabeller<Criteria>::Program {
       if (group.opposite == kNone) continue;
       const std::uint32_t edge = group.side / 2;
       cost.level[Criteria] += model_->terms->faces.edges[edge].ground.valid() ? 0 : 1;
-      cost.level[Criteria + 1] += model_->terms->sides.tie[edge];
+      cost.level[Criteria + 1] += model_->terms->sides.tie(edge);
       if (group.link != kNone) joining_[group.link / 64] |= std::uint64_t{1} << (group.link % 64);
     }
     return cost;

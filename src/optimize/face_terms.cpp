@@ -1,8 +1,6 @@
 // Terms of candidates, and which of them are at which side.
 #include "optimize/face_terms.hpp"
 
-#include "optimize/ties.hpp"
-
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -49,22 +47,13 @@ TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit
 FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& progress) {
   FaceSides sides;
   const std::size_t count = 2 * faces.edges.size();
-  sides.owner.assign(count, FaceSides::kNoFace);
-  sides.fixed.assign(count, FaceSides::kNoTriangle);
-  std::vector<std::uint32_t> face_of_triangle(faces.triangles.size(), FaceSides::kNoFace);
+  sides.face.assign(faces.triangles.size(), FaceSides::kNoFace);
   for (std::uint32_t f = 0; f < faces.faces.size(); ++f) {
-    for (const std::uint32_t t : faces.faces.row(f)) face_of_triangle[t] = f;
+    for (const std::uint32_t t : faces.faces.row(f)) sides.face[t] = f;
   }
   sides.triangles.first.assign(count + 1, 0);
-  for (std::uint32_t t = 0; t < faces.triangles.size(); ++t) {
-    for (const std::uint32_t side : faces.sides[t]) {
-      ++sides.triangles.first[side + 1];
-      if (face_of_triangle[t] == FaceSides::kNoFace) {
-        sides.fixed[side] = t;
-      } else {
-        sides.owner[side] = face_of_triangle[t];
-      }
-    }
+  for (const auto& of_triangle : faces.sides) {
+    for (const std::uint32_t side : of_triangle) ++sides.triangles.first[side + 1];
   }
   std::partial_sum(sides.triangles.first.begin(), sides.triangles.first.end(), sides.triangles.first.begin());
   sides.triangles.items.resize(sides.triangles.first.back());
@@ -77,6 +66,9 @@ FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& pr
     std::uint32_t edge;
   };
   std::vector<Fresh> fresh;  // edges that the Delaunay triangulation does not have
+  fresh.reserve(static_cast<std::size_t>(
+      std::count_if(faces.edges.begin(), faces.edges.end(),
+                    [](const CandidateEdge& edge) { return !edge.ground.valid(); })));
   for (std::uint32_t e = 0; e < faces.edges.size(); ++e) {
     if (faces.edges[e].ground.valid()) continue;
     const auto ends = std::minmax({tin.point(faces.edges[e].a), tin.point(faces.edges[e].b)});
@@ -85,9 +77,9 @@ FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& pr
   tbb::parallel_sort(fresh.begin(), fresh.end(), [](const Fresh& one, const Fresh& other) {
     return std::tie(one.low, one.high) < std::tie(other.low, other.high);
   });
-  sides.tie.assign(faces.edges.size(), 0);
-  for (std::size_t rank = 0; rank < fresh.size(); ++rank)
-    sides.tie[fresh[rank].edge] = tie_of(rank, fresh.size());
+  sides.rank.assign(faces.edges.size(), FaceSides::kNoRank);
+  sides.rank_count = fresh.size();
+  for (std::uint32_t rank = 0; rank < fresh.size(); ++rank) sides.rank[fresh[rank].edge] = rank;
   progress.check();
   return sides;
 }

@@ -4,6 +4,7 @@
 
 #include "optimize/cost.hpp"
 #include "optimize/declaration.hpp"
+#include "optimize/ties.hpp"
 
 #include <thalweg/mesh/tin.hpp>
 #include <thalweg/optimize/criterion.hpp>
@@ -40,13 +41,29 @@ TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit
 
 /// Where the sides of candidate triangles lead.
 struct FaceSides {
-  std::vector<std::uint32_t> owner;  ///< by side: the face left of it, or kNoFace
-  std::vector<std::uint32_t> fixed;  ///< by side: the triangle left of it that is in no face, or kNoTriangle
-  Rows triangles;                    ///< by side: candidates left of it, ascending
-  std::vector<std::int64_t> tie;     ///< by edge: what it costs at the last level
+  std::vector<std::uint32_t> face;  ///< by triangle: the face that it is of, or kNoFace
+  Rows triangles;                   ///< by side: candidates left of it, ascending
+  std::vector<std::uint32_t> rank;  ///< by edge, among those that the ground does not have, or kNoRank
+  std::size_t rank_count = 0;
 
   static constexpr std::uint32_t kNoFace = 0xffffffffU;
   static constexpr std::uint32_t kNoTriangle = 0xffffffffU;
+  static constexpr std::uint32_t kNoRank = 0xffffffffU;
+
+  /// The face left of a side, or kNoFace.
+  [[nodiscard]] std::uint32_t owner(std::uint32_t side) const {
+    const auto here = triangles.row(side);
+    return here.empty() ? kNoFace : face[here.front()];
+  }
+  /// The triangle left of a side that is in no face, or kNoTriangle. Others would overlap it.
+  [[nodiscard]] std::uint32_t fixed(std::uint32_t side) const {
+    const auto here = triangles.row(side);
+    return here.empty() || face[here.front()] != kNoFace ? kNoTriangle : here.front();
+  }
+  /// What an edge costs at the last level.
+  [[nodiscard]] std::int64_t tie(std::uint32_t edge) const {
+    return rank[edge] == kNoRank ? 0 : tie_of(rank[edge], rank_count);
+  }
 };
 
 /// Ties are by coordinates, as in ties.hpp. Complexity: sorting.

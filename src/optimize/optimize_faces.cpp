@@ -140,18 +140,14 @@ class FaceRun {
   }
 
   /// Plateau links of candidate edges if pits are counted.
-  std::vector<PlateauLink> links_for(const FaceTerms<Criteria>& terms) {
-    std::vector<PlateauLink> links;
-    if (!terms.pit_level) return links;
-    links.reserve(faces_.edges.size());
-    for (std::uint32_t e = 0; e < faces_.edges.size(); ++e) links.push_back(pits_->link_of(e));
-    return links;
+  [[nodiscard]] std::span<const PlateauLink> links_for(const FaceTerms<Criteria>& terms) const {
+    return terms.pit_level ? std::span<const PlateauLink>(pits_->link) : std::span<const PlateauLink>();
   }
 
   /// All faces with few labels; then, knowing what these leave across, the others.
   std::vector<FaceLabels<Criteria>> label_faces(const FaceTerms<Criteria>& terms,
                                                 SideWeights<Criteria>& sides) {
-    const std::vector<PlateauLink> links = links_for(terms);
+    const std::span<const PlateauLink> links = links_for(terms);
     std::vector<FaceLabels<Criteria>> labels(faces_.faces.size());
     std::vector<std::uint32_t> turn(labels.size());
     std::iota(turn.begin(), turn.end(), 0U);
@@ -183,7 +179,7 @@ class FaceRun {
       for (const PitHeuristic heuristic : {PitHeuristic::Flip, PitHeuristic::Hull})
         offered_.push_back(remove_pits(delaunay_, faces_, heuristic, progress_));
     }
-    const std::vector<PlateauLink> links = links_for(terms);
+    const std::span<const PlateauLink> links = links_for(terms);
     FaceModeller<Criteria> modeller(terms, sides, links);
     for (std::size_t f = 0; f < labels.size(); ++f) {
       if (labels[f].complete) continue;
@@ -200,7 +196,7 @@ class FaceRun {
 
   void relax_partial(const FaceTerms<Criteria>& terms, const SideWeights<Criteria>& sides,
                      std::vector<FaceLabels<Criteria>>& labels) {
-    const std::vector<PlateauLink> links = links_for(terms);
+    const std::span<const PlateauLink> links = links_for(terms);
     for_each_block(labels.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
       FaceModeller<Criteria> modeller(terms, sides, links);
       for (std::size_t f = begin; f < end; ++f) {
@@ -323,14 +319,13 @@ class FaceRun {
     std::vector<Face> corners;
     for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
       corners.push_back(face_of(delaunay_, faces_, t, scale_));
-      const auto& sides = faces_.sides[t];
-      const bool fixed = sides_.owner[sides[0]] == FaceSides::kNoFace;
+      const bool fixed = sides_.face[t] == FaceSides::kNoFace;
       if (of_triangles) note(level.of(corners.back(), scale_, delaunay_), fixed);
     }
     for (std::uint32_t e = 0; e < faces_.edges.size() && !of_triangles; ++e) {
       if (e % 4096 == 0) progress_.check();
-      const std::size_t one = std::size_t{2} * e, other = one + 1;
-      const bool fixed = sides_.owner[one] == FaceSides::kNoFace && sides_.owner[other] == FaceSides::kNoFace;
+      const std::uint32_t one = 2 * e, other = one + 1;
+      const bool fixed = sides_.owner(one) == FaceSides::kNoFace && sides_.owner(other) == FaceSides::kNoFace;
       for (const std::uint32_t left : sides_.triangles.row(one)) {
         for (const std::uint32_t right : sides_.triangles.row(other)) {
           note(level.of(corners[left], corners[right], scale_, delaunay_), fixed);
