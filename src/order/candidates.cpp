@@ -23,6 +23,7 @@
 #include <atomic>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace thalweg::detail {
 
@@ -161,16 +162,18 @@ std::vector<std::uint32_t> Finder::numbers_in_ground() const {
   return number;
 }
 
+// Triangles at a side are linked: each has for each of its sides the one before it there, as 3 times the
+// triangle plus its corner.
 void Finder::drop_dead_ends() {
-  const auto visit_sides = [&](const auto& visit) {
-    for (std::uint32_t t = 0; t < found_.triangles.size(); ++t) {
-      for (const std::uint32_t side : found_.sides[t]) visit(side, t);
+  const std::size_t sides = 2 * found_.edges.size();
+  std::vector<std::uint32_t> last(sides, kNone), alive(sides, 0);
+  std::vector<std::array<std::uint32_t, 3>> before(found_.triangles.size());
+  for (std::uint32_t t = 0; t < before.size(); ++t) {
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t side = found_.sides[t][i];
+      before[t][i] = std::exchange(last[side], 3 * t + i);
+      ++alive[side];
     }
-  };
-  const Rows on = rows_of(visit_sides, 2 * found_.edges.size(), progress_);
-  std::vector<std::uint32_t> alive(on.size());
-  for (std::size_t side = 0; side < on.size(); ++side) {
-    alive[side] = static_cast<std::uint32_t>(on.row(side).size());
   }
   std::vector<std::uint8_t> dead(found_.triangles.size(), 0);
   std::vector<std::uint32_t> lonely;  // sides whose triangles all have nothing beyond
@@ -178,22 +181,25 @@ void Finder::drop_dead_ends() {
     const HalfedgeId h = found_.edges[side / 2].ground;
     return !h.valid() || !ground_.on_rim(h);
   };
-  for (std::uint32_t side = 0; side < on.size(); ++side) {
+  for (std::uint32_t side = 0; side < sides; ++side) {
     if (alive[side] > 0 && alive[side ^ 1U] == 0 && needs_both(side)) lonely.push_back(side);
   }
-  bool any = false;
+  const bool any = !lonely.empty();
   while (!lonely.empty()) {
     const std::uint32_t side = lonely.back();
     lonely.pop_back();
-    for (const std::uint32_t t : on.row(side)) {
+    for (std::uint32_t at = last[side]; at != kNone; at = before[at / 3][at % 3]) {
+      const std::uint32_t t = at / 3;
       if (dead[t] != 0) continue;
       dead[t] = 1;
-      any = true;
       for (const std::uint32_t s : found_.sides[t]) {
         if (--alive[s] == 0 && alive[s ^ 1U] > 0 && needs_both(s)) lonely.push_back(s ^ 1U);
       }
     }
   }
+  release(last);
+  release(alive);
+  release(before);
   if (any) drop_triangles(found_, dead);
 }
 
@@ -286,32 +292,40 @@ Candidates find_candidates(const Tin& ground, std::vector<OrderTriangle> triangl
   return Finder(ground, std::move(triangles), progress).find();
 }
 
-void drop_triangles(Candidates& from, std::span<const std::uint8_t> dropped) {
-  Candidates to;
-  std::vector<std::uint32_t> number(from.edges.size(), kNone);
+void drop_triangles(Candidates& candidates, std::span<const std::uint8_t> dropped) {
+  std::vector<std::uint32_t> number(candidates.edges.size(), kNone);
+  std::size_t kept = 0;
   for (std::size_t t = 0; t < dropped.size(); ++t) {
     if (dropped[t] != 0) continue;
-    to.triangles.push_back(from.triangles[t]);
-    to.sides.push_back(from.sides[t]);
-    for (const std::uint32_t side : from.sides[t]) number[side / 2] = 0;
+    candidates.triangles[kept] = candidates.triangles[t];
+    candidates.sides[kept] = candidates.sides[t];
+    for (const std::uint32_t side : candidates.sides[kept++]) number[side / 2] = 0;
   }
+  candidates.triangles.resize(kept);
+  candidates.sides.resize(kept);
+  std::uint32_t edges = 0;
   for (std::size_t e = 0; e < number.size(); ++e) {
     if (number[e] == kNone) continue;
-    number[e] = static_cast<std::uint32_t>(to.edges.size());
-    to.edges.push_back(from.edges[e]);
+    candidates.edges[edges] = candidates.edges[e];
+    number[e] = edges++;
   }
-  for (auto& sides : to.sides) {
+  candidates.edges.resize(edges);
+  for (auto& sides : candidates.sides) {
     for (std::uint32_t& side : sides) side = 2 * number[side / 2] + side % 2;
   }
-  for (std::size_t e = 0; e < from.crossings.size(); ++e) {
-    if (number[e] == kNone) continue;
-    for (const std::uint32_t crossed : from.crossings.row(e)) {
-      if (number[crossed] != kNone) to.crossings.items.push_back(number[crossed]);
+  Rows& crossings = candidates.crossings;
+  if (crossings.size() == 0) return;
+  std::uint32_t next = 0, begin = 0, row = 0;
+  for (std::size_t e = 0; e < number.size(); ++e) {
+    const std::uint32_t end = crossings.first[e + 1];
+    for (std::uint32_t i = std::exchange(begin, end); i < end && number[e] != kNone; ++i) {
+      const std::uint32_t crossed = number[crossings.items[i]];
+      if (crossed != kNone) crossings.items[next++] = crossed;
     }
-    to.crossings.first.push_back(static_cast<std::uint32_t>(to.crossings.items.size()));
+    if (number[e] != kNone) crossings.first[++row] = next;
   }
-  to.points = std::move(from.points);
-  from = std::move(to);
+  crossings.first.resize(row + 1);
+  crossings.items.resize(next);
 }
 
 void cut_into_faces(Candidates& found, const Progress& progress) {

@@ -11,7 +11,8 @@
 //    are looked at first, and then, in rounds, the sides of all triangles that are found.
 // 2. An edge goes if its triangle with the nearest vertex on some side has a larger order. At each that stays
 //    the empty triangles of order at most k are listed: their third corner is among the k + 1 nearest
-//    vertices. A triangle that is none of the ground has such an edge.
+//    vertices. A triangle that is none of the ground has such an edge. One with a side that is of no use is
+//    in no triangulation, and so are all at an edge that has none on one side.
 // 3. Most edges that come up are of no use, and come up more than once. Those that meet for the first time in
 //    a block are tried on the vertices at hand: at order 3 of 10.1 edges a random point 2.5 are looked at,
 //    and 1.6 are of use.
@@ -70,12 +71,19 @@ class EdgeSearch {
   }
 
  private:
+  /// The third corner of a triangle at an edge, and its order.
+  struct Corner {
+    VertexId vertex;
+    std::uint32_t order = 0;
+  };
+
   /// Of one thread: memory is reused from block to block.
   struct Search {
     Pencil pencil;
-    detail::StampedMapOf<EdgeKey> seen = {};               ///< edges of the block
+    detail::StampedMapOf<EdgeKey> seen = {};               ///< edges of the block: 1 if they may be of use
     std::vector<EdgeKey> fresh = {};                       ///< of these what may be of use
     std::vector<OrderTriangle> found = {};                 ///< in the block
+    std::vector<Corner> left = {}, right = {};             ///< at the edge
     std::vector<VertexId> known = {};                      ///< vertices near the edge
     std::vector<VertexId> around = {}, around_other = {};  ///< neighbours of its ends, or of a vertex
   };
@@ -154,7 +162,7 @@ class EdgeSearch {
     std::vector<std::vector<OrderTriangle>> found(blocks);
     for_each_block(edges.size(), kBlock, progress_, stretch, [&](std::size_t begin, std::size_t end) {
       Search& search = searches_.local();
-      for (std::size_t i = begin; i < end; ++i) search.seen.insert(edges[i]);
+      for (std::size_t i = begin; i < end; ++i) search.seen.insert(edges[i], 1);
       for (std::size_t i = begin; i < end; ++i) {
         list(VertexId{edges[i] >> 32U}, VertexId{edges[i] & 0xffffffffU}, search);
       }
@@ -166,11 +174,14 @@ class EdgeSearch {
     return joined(fresh);
   }
 
-  /// An edge to look at, unless that is known to be of no use. Pre: it is none of the ground.
-  static void note(VertexId a, VertexId b, Search& search) {
+  /// An edge to look at; false, and it is not, if it is known to be of no use. Pre: it is none of the ground.
+  static bool note(VertexId a, VertexId b, Search& search) {
     const EdgeKey key = key_of(a, b);
-    if (search.seen.insert(key) && search.pencil.may_be_of_use(a, b, search.known))
-      search.fresh.push_back(key);
+    if (const std::uint8_t* const known = search.seen.find(key)) return *known != 0;
+    const bool may_be_of_use = search.pencil.may_be_of_use(a, b, search.known);
+    search.seen.insert(key, may_be_of_use ? 1 : 0);
+    if (may_be_of_use) search.fresh.push_back(key);
+    return may_be_of_use;
   }
 
   /// Ascending; what was seen is forgotten.
@@ -199,6 +210,9 @@ class EdgeSearch {
   void list(VertexId a, VertexId b, Search& search) const {
     Pencil& pencil = search.pencil;
     if (!pencil.look_at(a, b)) return;
+    list_corners(pencil, pencil.left(), search.left);
+    list_corners(pencil, pencil.right(), search.right);
+    if (search.left.empty() || search.right.empty()) return;
     search.known.assign({a, b});
     for (const std::span<const Pencil::Beside> side : {pencil.left(), pencil.right()}) {
       for (const Pencil::Beside& x : side) search.known.push_back(x.vertex);
@@ -208,18 +222,25 @@ class EdgeSearch {
     const auto is_new = [](VertexId c, const std::vector<VertexId>& around) {
       return std::find(around.begin(), around.end(), c) == around.end();
     };
-    for (const std::span<const Pencil::Beside> side : {pencil.left(), pencil.right()}) {
-      const bool left = side.data() == pencil.left().data();
-      for (std::size_t i = 0; i < side.size(); ++i) {
-        const VertexId c = side[i].vertex;
-        const auto order = pencil.order(side, i);
-        if (!order || !pencil.is_empty(side, i)) continue;
-        Triangle corners{left ? a : b, left ? b : a, c};
-        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-        search.found.push_back({corners, static_cast<std::uint32_t>(*order)});
-        if (is_new(c, search.around)) note(a, c, search);
-        if (is_new(c, search.around_other)) note(b, c, search);
-      }
+    const auto add = [&](VertexId from, VertexId to, const Corner& corner) {
+      Triangle corners{from, to, corner.vertex};
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      if (is_new(corner.vertex, search.around) && !note(a, corner.vertex, search)) return;
+      if (is_new(corner.vertex, search.around_other) && !note(b, corner.vertex, search)) return;
+      search.found.push_back({corners, corner.order});
+    };
+    for (const Corner& corner : search.left) add(a, b, corner);
+    for (const Corner& corner : search.right) add(b, a, corner);
+  }
+
+  /// Third corners, on one side, of empty triangles of small enough order.
+  static void list_corners(const Pencil& pencil, std::span<const Pencil::Beside> side,
+                           std::vector<Corner>& corners) {
+    corners.clear();
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      const auto order = pencil.order(side, i);
+      if (order && pencil.is_empty(side, i))
+        corners.push_back({side[i].vertex, static_cast<std::uint32_t>(*order)});
     }
   }
 
