@@ -36,12 +36,14 @@ void FaceModeller<Criteria>::group_sides() {
   entries_.clear();
   for (std::uint32_t i = 0; i < model_.triangles.size(); ++i) {
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
-      entries_.emplace_back(terms_.faces.sides[model_.triangles[i]][corner], 3 * i + corner);
+      const std::uint64_t side = terms_.faces.sides[model_.triangles[i]][corner];
+      entries_.push_back(side << 32U | (3 * i + corner));
     }
   }
   std::sort(entries_.begin(), entries_.end());
   std::vector<FaceGroup>& groups = model_.groups;
-  for (const auto& [side, entry] : entries_) {
+  for (const std::uint64_t key : entries_) {
+    const auto side = static_cast<std::uint32_t>(key >> 32U), entry = static_cast<std::uint32_t>(key);
     if (groups.empty() || groups.back().side != side) {
       const auto last = static_cast<std::uint32_t>(groups.size());
       groups.push_back({.side = side});

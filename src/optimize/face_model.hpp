@@ -112,7 +112,7 @@ class FaceModeller {
   const SideWeights<Criteria>& sides_;
   std::span<const PlateauLink> links_;
   FaceModel<Criteria> model_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> entries_;  ///< side; triangle and corner
+  std::vector<std::uint64_t> entries_;  ///< in the upper half a side, then 3 times a triangle plus its corner
 };
 
 }  // namespace thalweg

@@ -39,7 +39,7 @@ FaceNetwork<Criteria> build_network(const FaceTerms<Criteria>& terms, const Side
 
 struct SearchedFace {
   std::unique_ptr<const FrontGraph> own;  ///< null: that of FixedFaces
-  bool whole = true;              ///< whether it has all triangulations of the face
+  bool whole = true;                      ///< whether it has all triangulations of the face
 };
 
 /// The fronts of a face; where they have more edges than `work_limit`, those of the largest order that has
@@ -58,8 +58,8 @@ inline const FrontGraph& graph_of(const FixedFaces& faces, std::span<const Searc
   return searched[face].own ? *searched[face].own : faces.fronts[face];
 }
 
-/// Joins nodes that every triangulation of some face joins; links follow. Complexity: arcs of all graphs and links of their
-/// faces.
+/// Joins nodes that every triangulation of some face joins; links follow. Complexity: arcs of all graphs and
+/// links of their faces.
 void join_always(const FixedFaces& faces, std::span<const SearchedFace> searched, PlateauNodes& pits,
                  const Progress& progress);
 

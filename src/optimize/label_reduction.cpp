@@ -233,25 +233,23 @@ template <std::size_t Criteria>
 class Splitter {
  public:
   Splitter(const LabelNetwork<Criteria>& network, std::span<const std::uint8_t> stays) : network_(network) {
-    open_.resize(network.size());
+    first_open_.reserve(network.size() + 1);
     for (std::size_t v = 0; v < network.size(); ++v) {
       for (std::uint32_t i = 0; i < network.label_count(v); ++i) {
-        if (stays[network.first_label[v] + i] != 0) open_[v].push_back(i);
+        if (stays[network.first_label[v] + i] == 0) continue;
+        open_.push_back(i);
+        unary_.push_back(network.unary[network.first_label[v] + i]);
       }
+      first_open_.push_back(static_cast<std::uint32_t>(open_.size()));
     }
   }
 
   std::vector<LabelPiece<Criteria>> run() {
     UnionFind parts(network_.size());
-    unary_.resize(network_.size());
-    for (std::size_t v = 0; v < network_.size(); ++v) {
-      for (const std::uint32_t i : open_[v]) unary_[v].push_back(network_.unary[network_.first_label[v] + i]);
-    }
     std::vector<std::uint32_t> coupled;
     for (std::uint32_t c = 0; c < network_.pairs.size(); ++c) {
       const PairTerm& pair = network_.pairs[c];
-      const auto& of_a = open_[pair.a];
-      const auto& of_b = open_[pair.b];
+      const std::span<const std::uint32_t> of_a = open(pair.a), of_b = open(pair.b);
       if (of_a.size() < 2 && of_b.size() < 2) continue;
       const Rest<Criteria> rest(network_, pair, of_a, of_b);
       if (rest.couples()) {
@@ -259,8 +257,8 @@ class Splitter {
         parts.unite(pair.a, pair.b);
         continue;
       }
-      for (std::size_t i = 0; i < of_a.size(); ++i) add(unary_[pair.a][i], rest.of_a(i));
-      for (std::size_t j = 0; j < of_b.size(); ++j) add(unary_[pair.b][j], rest.of_b(j));
+      for (std::size_t i = 0; i < of_a.size(); ++i) add(unary_[first_open_[pair.a] + i], rest.of_a(i));
+      for (std::size_t j = 0; j < of_b.size(); ++j) add(unary_[first_open_[pair.b] + j], rest.of_b(j));
     }
     number_pieces(parts);
     for (const std::uint32_t c : coupled) take(network_.pairs[c]);
@@ -274,7 +272,8 @@ class Splitter {
     piece_.assign(network_.size(), 0);
     index_.assign(network_.size(), 0);
     for (std::uint32_t v = 0; v < network_.size(); ++v) {
-      if (open_[v].size() < 2) continue;
+      const std::span<const std::uint32_t> labels = open(v);
+      if (labels.size() < 2) continue;
       std::uint32_t& piece = number[parts.find(v)];
       if (piece == kNoPiece) {
         piece = static_cast<std::uint32_t>(pieces_.size());
@@ -284,10 +283,16 @@ class Splitter {
       LabelPiece<Criteria>& to = pieces_[piece];
       index_[v] = static_cast<std::uint32_t>(to.variable.size());
       to.variable.push_back(v);
-      to.label.insert(to.label.end(), open_[v].begin(), open_[v].end());
-      to.network.unary.insert(to.network.unary.end(), unary_[v].begin(), unary_[v].end());
+      to.label.insert(to.label.end(), labels.begin(), labels.end());
+      const auto first = unary_.begin() + first_open_[v];
+      to.network.unary.insert(to.network.unary.end(), first,
+                              first + static_cast<std::ptrdiff_t>(labels.size()));
       to.network.first_label.push_back(static_cast<std::uint32_t>(to.label.size()));
     }
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> open(std::uint32_t v) const {
+    return std::span(open_).subspan(first_open_[v], first_open_[v + 1] - first_open_[v]);
   }
 
   /// Classes that stay, in a new numbering, for the labels of one end.
@@ -307,8 +312,8 @@ class Splitter {
     LabelNetwork<Criteria>& to = pieces_[piece_[pair.a]].network;
     std::vector<std::uint16_t> of_a, of_b;
     PairTerm moved{.a = index_[pair.a], .b = index_[pair.b]};
-    moved.class_a = take_classes(to, pair.class_a, open_[pair.a], of_a);
-    moved.class_b = take_classes(to, pair.class_b, open_[pair.b], of_b);
+    moved.class_a = take_classes(to, pair.class_a, open(pair.a), of_a);
+    moved.class_b = take_classes(to, pair.class_b, open(pair.b), of_b);
     moved.classes_a = static_cast<std::uint16_t>(of_a.size());
     moved.classes_b = static_cast<std::uint16_t>(of_b.size());
     moved.weight = to.weights.size();
@@ -321,8 +326,9 @@ class Splitter {
   }
 
   const LabelNetwork<Criteria>& network_;
-  std::vector<std::vector<std::uint32_t>> open_;  ///< by variable: its labels that stay
-  std::vector<std::vector<Cost<Criteria>>> unary_;
+  std::vector<std::uint32_t> first_open_ = {0};  ///< by variable: where its labels that stay are in open_
+  std::vector<std::uint32_t> open_;
+  std::vector<Cost<Criteria>> unary_;         ///< of these
   std::vector<std::uint32_t> piece_, index_;  ///< by variable
   std::vector<LabelPiece<Criteria>> pieces_;
 };

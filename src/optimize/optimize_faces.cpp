@@ -394,10 +394,10 @@ class FaceRun {
     result.largest_piece = choice.figures.largest_piece;
     result.width = choice.figures.width;
     for (const std::uint32_t t : choice.triangles) result.triangles.push_back(faces_.triangles[t]);
-    const Tin tin = tin_of(choice);
+    result.tin = tin_of(choice);
     bool proved = true;
     for (std::size_t level = 0; level < reported_; ++level) {
-      result.criteria.push_back(describe(level, choice, tin));
+      result.criteria.push_back(describe(level, choice, result.tin));
       proved = proved && result.criteria.back().optimal;
       result.criteria.back().optimal = proved;
     }

@@ -330,17 +330,17 @@ FaceOptimizeResult optimize_faces_by(PitHeuristic heuristic, const Tin& delaunay
   result.triangles = remove_pits(delaunay, faces, heuristic, progress);
   std::vector<Triangle> triangles;
   for (const OrderTriangle& t : result.triangles) triangles.push_back(t.corners);
-  const Tin tin({delaunay.points().begin(), delaunay.points().end()},
-                {delaunay.heights().begin(), delaunay.heights().end()}, std::move(triangles),
-                delaunay.constraint_edges());
-  result.new_edges = count_new_edges(tin, delaunay);
+  result.tin = Tin({delaunay.points().begin(), delaunay.points().end()},
+                   {delaunay.heights().begin(), delaunay.heights().end()}, std::move(triangles),
+                   delaunay.constraint_edges());
+  result.new_edges = count_new_edges(result.tin, delaunay);
   const Scale scale{common.horizontal_metres_per_unit, common.vertical_metres_per_unit};
   const std::string name = heuristic == PitHeuristic::Flip ? "flip" : "hull";
   bool proved = true;
   for (std::size_t i = 0; i < result.criteria.size(); ++i) {
     CriterionResult& line = result.criteria[i];
-    line.result =
-        in_units(value_on(tin, common.criteria[i], scale, common.reference, progress), common.criteria[i]);
+    line.result = in_units(value_on(result.tin, common.criteria[i], scale, common.reference, progress),
+                           common.criteria[i]);
     proved = proved && line.result == line.bound;
     line.optimal = proved;
     line.method = (i == 0 ? name + " heuristic" : "as the " + name + " heuristic leaves it") +

@@ -28,7 +28,14 @@ using Bits = std::vector<std::uint64_t>;
 /// Fronts that differ, numbered as they come: end to end, and found again by open addressing.
 class FrontList {
  public:
-  explicit FrontList(std::size_t words) : words_(words) {}
+  /// Forgets all fronts; memory stays.
+  void start(std::size_t words) {
+    words_ = words;
+    edges_ = size_ = 0;
+    bits_.clear();
+    slots_.assign(kFirstSize, kFree);
+    empty_.reset();
+  }
   /// The front's number.
   std::uint32_t number(std::span<const std::uint64_t> front);
   [[nodiscard]] std::optional<std::uint32_t> find_empty() const { return empty_; }
@@ -41,14 +48,15 @@ class FrontList {
 
  private:
   static constexpr std::uint32_t kFree = 0xffffffffU;
+  static constexpr std::size_t kFirstSize = 16;
   [[nodiscard]] std::size_t slot(std::span<const std::uint64_t> front) const;
   [[nodiscard]] bool is_at(std::uint32_t i, std::span<const std::uint64_t> front) const;
   void grow();
 
-  std::size_t words_, edges_ = 0;
+  std::size_t words_ = 0, edges_ = 0;
   std::uint32_t size_ = 0;
   Bits bits_;
-  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(16, kFree);
+  std::vector<std::uint32_t> slots_;
   std::optional<std::uint32_t> empty_;
 };
 
@@ -87,17 +95,20 @@ std::uint32_t FrontList::number(std::span<const std::uint64_t> front) {
   return fresh;
 }
 
-class FaceSearch {
+}  // namespace
+
+class FrontFinder::Search {
  public:
-  FaceSearch(const Candidates& candidates, std::size_t face)
-      : candidates_(candidates), triangles_(candidates.faces.row(face)) {
+  explicit Search(const Candidates& candidates) : candidates_(candidates) {}
+
+  void start(std::size_t face) {
+    triangles_ = candidates_.faces.row(face);
     number_edges();
     words_ = (2 * edges_.size() + 63) / 64;
     note_conflicts();
     group_triangles();
   }
-
-  [[nodiscard]] std::optional<FrontGraph> find_fronts(const FrontOptions& options) const;
+  [[nodiscard]] std::optional<FrontGraph> find_fronts(const FrontOptions& options);
   [[nodiscard]] FaceOrders sweep(const FrontGraph& graph) const;
 
  private:
@@ -105,11 +116,11 @@ class FaceSearch {
   using Side = std::uint32_t;
 
   void number_edges();
-  void sort_along(std::vector<std::uint32_t>& edges) const;
+  void sort_along();
   void note_conflicts();
   void group_triangles();
   [[nodiscard]] std::optional<std::uint32_t> number_of(std::uint32_t edge) const;
-  [[nodiscard]] Bits first_front() const;
+  const Bits& first_front();
   [[nodiscard]] Side lowest(std::span<const std::uint64_t> front) const;
   /// Whether the triangle fits; `next` is what it leaves of the front, if so.
   bool cover(std::span<const std::uint64_t> front, std::uint32_t triangle, Bits& next) const;
@@ -125,10 +136,16 @@ class FaceSearch {
   Bits conflicts_;  ///< by edge: what of a front the edge cannot enter; all if it is fixed
   std::vector<std::uint32_t> first_on_;  ///< by side: its first triangle
   std::vector<std::uint32_t> on_;        ///< triangles of the face, by side, ascending
+  // Of one step.
+  std::vector<std::uint32_t> along_, next_on_;
+  FrontList fronts_;
+  std::vector<Arc> arcs_;
+  Bits next_;
 };
 
 // Edges of the face are sorted by their end that comes first along the face, then by the other one.
-void FaceSearch::sort_along(std::vector<std::uint32_t>& edges) const {
+void FrontFinder::Search::sort_along() {
+  std::vector<std::uint32_t>& edges = along_;
   const auto point = [&](VertexId v) { return candidates_.points[v.index()]; };
   Point2 low = point(candidates_.edges[edges[0]].a), high = low;
   for (const std::uint32_t e : edges) {
@@ -151,20 +168,20 @@ void FaceSearch::sort_along(std::vector<std::uint32_t>& edges) const {
   for (std::size_t i = 0; i < edges.size(); ++i) edges[i] = std::get<2>(keys[i]);
 }
 
-void FaceSearch::number_edges() {
+void FrontFinder::Search::number_edges() {
   constexpr std::size_t kSmall = 24;  // triangles: fewer have so few fronts that order does not matter
-  std::vector<std::uint32_t> edges;
-  edges.reserve(3 * triangles_.size());
+  along_.clear();
   for (const std::uint32_t t : triangles_) {
-    for (const std::uint32_t side : candidates_.sides[t]) edges.push_back(side / 2);
+    for (const std::uint32_t side : candidates_.sides[t]) along_.push_back(side / 2);
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  if (triangles_.size() > kSmall) sort_along(edges);
-  edges_.reserve(edges.size());
-  for (std::uint32_t i = 0; i < edges.size(); ++i) edges_.emplace_back(edges[i], i);
-  std::sort(edges_.begin(), edges_.end());
-  sides_.reserve(triangles_.size());
+  std::sort(along_.begin(), along_.end());
+  along_.erase(std::unique(along_.begin(), along_.end()), along_.end());
+  const bool large = triangles_.size() > kSmall;
+  if (large) sort_along();
+  edges_.clear();
+  for (std::uint32_t i = 0; i < along_.size(); ++i) edges_.emplace_back(along_[i], i);
+  if (large) std::sort(edges_.begin(), edges_.end());
+  sides_.clear();
   for (const std::uint32_t t : triangles_) {
     std::array<Side, 3>& here = sides_.emplace_back();
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -175,12 +192,12 @@ void FaceSearch::number_edges() {
 }
 
 // None if it is no edge of a triangle of the face.
-std::optional<std::uint32_t> FaceSearch::number_of(std::uint32_t edge) const {
+std::optional<std::uint32_t> FrontFinder::Search::number_of(std::uint32_t edge) const {
   const auto at = std::lower_bound(edges_.begin(), edges_.end(), std::pair(edge, std::uint32_t{0}));
   return at != edges_.end() && at->first == edge ? std::optional(at->second) : std::nullopt;
 }
 
-void FaceSearch::note_conflicts() {
+void FrontFinder::Search::note_conflicts() {
   conflicts_.assign(edges_.size() * words_, 0);
   for (const auto& [edge, number] : edges_) {
     std::uint64_t* const row = &conflicts_[number * words_];
@@ -193,38 +210,39 @@ void FaceSearch::note_conflicts() {
   }
 }
 
-void FaceSearch::group_triangles() {
+void FrontFinder::Search::group_triangles() {
   first_on_.assign(2 * edges_.size() + 1, 0);
   for (const auto& sides : sides_) {
     for (const Side side : sides) ++first_on_[side + 1];
   }
   for (std::size_t i = 1; i < first_on_.size(); ++i) first_on_[i] += first_on_[i - 1];
   on_.resize(first_on_.back());
-  std::vector<std::uint32_t> next(first_on_.begin(), first_on_.end() - 1);
+  next_on_.assign(first_on_.begin(), first_on_.end() - 1);
   for (std::uint32_t i = 0; i < sides_.size(); ++i) {
-    for (const Side side : sides_[i]) on_[next[side]++] = i;
+    for (const Side side : sides_[i]) on_[next_on_[side]++] = i;
   }
 }
 
-Bits FaceSearch::first_front() const {
-  Bits front(words_, 0);
+const Bits& FrontFinder::Search::first_front() {
+  next_.assign(words_, 0);
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       if (candidates_.edges[candidates_.sides[triangles_[i]][corner] / 2].free) continue;
-      front[sides_[i][corner] / 64] |= std::uint64_t{1} << (sides_[i][corner] % 64);
+      next_[sides_[i][corner] / 64] |= std::uint64_t{1} << (sides_[i][corner] % 64);
     }
   }
-  return front;
+  return next_;
 }
 
 // Pre: the front is not empty.
-FaceSearch::Side FaceSearch::lowest(std::span<const std::uint64_t> front) const {
+FrontFinder::Search::Side FrontFinder::Search::lowest(std::span<const std::uint64_t> front) const {
   std::size_t word = 0;
   while (front[word] == 0) ++word;
   return static_cast<Side>(64 * word + static_cast<std::size_t>(std::countr_zero(front[word])));
 }
 
-bool FaceSearch::cover(std::span<const std::uint64_t> front, std::uint32_t triangle, Bits& next) const {
+bool FrontFinder::Search::cover(std::span<const std::uint64_t> front, std::uint32_t triangle,
+                                Bits& next) const {
   next.assign(front.begin(), front.end());
   for (const Side side : sides_[triangle]) {
     const std::uint64_t bit = std::uint64_t{1} << (side % 64);
@@ -241,26 +259,25 @@ bool FaceSearch::cover(std::span<const std::uint64_t> front, std::uint32_t trian
   return true;
 }
 
-std::optional<FrontGraph> FaceSearch::find_fronts(const FrontOptions& options) const {
-  FrontList fronts(words_);
-  Bits next;
-  std::vector<Arc> arcs;
-  fronts.number(first_front());
+std::optional<FrontGraph> FrontFinder::Search::find_fronts(const FrontOptions& options) {
+  fronts_.start(words_);
+  arcs_.clear();
+  fronts_.number(first_front());
   // Each front is reached by as many triangles on every path, so those that are found first have fewer.
-  for (std::uint32_t f = 0; f < fronts.size(); ++f) {
-    if (fronts.work() > options.work_limit) return std::nullopt;
-    if (fronts.find_empty() == f) continue;
-    const Side side = lowest(fronts[f]);
+  for (std::uint32_t f = 0; f < fronts_.size(); ++f) {
+    if (fronts_.work() > options.work_limit) return std::nullopt;
+    if (fronts_.find_empty() == f) continue;
+    const Side side = lowest(fronts_[f]);
     for (std::uint32_t at = first_on_[side]; at < first_on_[side + 1]; ++at) {
       const std::uint32_t triangle = on_[at];
       if (!options.usable.empty() && options.usable[triangle] == 0) continue;
-      if (cover(fronts[f], triangle, next)) arcs.push_back({f, fronts.number(next), triangle});
+      if (cover(fronts_[f], triangle, next_)) arcs_.push_back({f, fronts_.number(next_), triangle});
     }
   }
-  return FrontGraph{fronts.size(), fronts.find_empty(), std::move(arcs), fronts.work()};
+  return FrontGraph{fronts_.size(), fronts_.find_empty(), {arcs_.begin(), arcs_.end()}, fronts_.work()};
 }
 
-FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {
+FaceOrders FrontFinder::Search::sweep(const FrontGraph& graph) const {
   constexpr std::uint32_t kUnreachable = FaceOrders::kUnreachable;
   const std::vector<Arc>& arcs = graph.arcs;
   std::vector<std::uint32_t> before(graph.front_count, kUnreachable), behind(graph.front_count, kUnreachable);
@@ -280,14 +297,18 @@ FaceOrders FaceSearch::sweep(const FrontGraph& graph) const {
   return orders;
 }
 
-}  // namespace
+FrontFinder::FrontFinder(const Candidates& candidates) : search_(std::make_unique<Search>(candidates)) {}
+FrontFinder::~FrontFinder() = default;
 
-std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face,
-                                      std::size_t work_limit) {
-  const FaceSearch search(candidates, face);
-  const auto graph = search.find_fronts({.work_limit = work_limit});
+std::optional<FrontGraph> FrontFinder::find(std::size_t face, const FrontOptions& options) {
+  search_->start(face);
+  return search_->find_fronts(options);
+}
+
+std::optional<FaceOrders> FrontFinder::find_orders(std::size_t face, std::size_t work_limit) {
+  const auto graph = find(face, {.work_limit = work_limit});
   if (!graph) return std::nullopt;
-  return search.sweep(*graph);
+  return search_->sweep(*graph);
 }
 
 }  // namespace thalweg::detail
@@ -296,7 +317,7 @@ namespace thalweg {
 
 std::optional<FrontGraph> find_fronts(const FixedFaces& faces, std::size_t face,
                                       const FrontOptions& options) {
-  return detail::FaceSearch(faces, face).find_fronts(options);
+  return detail::FrontFinder(faces).find(face, options);
 }
 
 }  // namespace thalweg

@@ -6,7 +6,9 @@
 
 #include <thalweg/order/face_fronts.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,8 +22,23 @@ struct FaceOrders {
   std::vector<std::uint32_t> with_triangle;  ///< as the face's triangles
 };
 
-/// None if the fronts that come up have more than `work_limit` edges together: a count, so the answer is the
-/// same everywhere.
-std::optional<FaceOrders> search_face(const Candidates& candidates, std::size_t face, std::size_t work_limit);
+/// Searches faces one by one: memory is reused from face to face. The candidates outlive it, unchanged.
+class FrontFinder {
+ public:
+  explicit FrontFinder(const Candidates& candidates);
+  ~FrontFinder();
+  FrontFinder(const FrontFinder&) = delete;
+  FrontFinder& operator=(const FrontFinder&) = delete;
+
+  /// As find_fronts.
+  std::optional<FrontGraph> find(std::size_t face, const FrontOptions& options);
+  /// None if the fronts that come up have more than `work_limit` edges together: a count, so the answer is
+  /// the same everywhere.
+  std::optional<FaceOrders> find_orders(std::size_t face, std::size_t work_limit);
+
+ private:
+  class Search;
+  std::unique_ptr<Search> search_;
+};
 
 }  // namespace thalweg::detail

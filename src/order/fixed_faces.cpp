@@ -7,6 +7,7 @@
 //    are counted backwards; no path that is followed leads to a dead end.
 #include "base/parallel.hpp"
 #include "order/candidates.hpp"
+#include "order/face_search.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/order/face_fronts.hpp>
@@ -100,8 +101,9 @@ std::optional<FixedFaces> find_fixed_faces(const Tin& surface, std::vector<Order
   std::vector<std::uint8_t> dead(found.triangles.size(), 0);
   std::atomic<bool> none{false};
   for_each_block(found.faces.size(), kFaces, progress, [&](std::size_t begin, std::size_t end) {
+    detail::FrontFinder finder(found);
     for (std::size_t face = begin; face < end; ++face) {
-      auto graph = find_fronts(found, face, {.work_limit = options.work_limit});
+      auto graph = finder.find(face, {.work_limit = options.work_limit});
       if (!graph) continue;
       if (!mark_dead(*graph, found.faces.row(face), dead)) none = true;
       found.fronts[face] = std::move(*graph);

@@ -68,7 +68,7 @@ bool UsefulSearch::greedy_decides() const {
 }
 
 void UsefulSearch::search(std::size_t face) {
-  const auto orders = detail::search_face(candidates_, face, options_.work_limit);
+  const auto orders = detail::FrontFinder(candidates_).find_orders(face, options_.work_limit);
   if (!orders) return ask_greedy(face);
   of_face_[face] = orders->any;
   const auto triangles = candidates_.faces.row(face);

@@ -116,6 +116,26 @@ SurfaceFaces find_surface_faces(const Terrain& terrain, const Tin& surface, cons
 
 namespace {
 
+/// Edges of one TIN that another one on the same vertices does not have, a < b, sorted.
+std::vector<std::array<VertexId, 2>> find_new_edges(const Tin& tin, const Tin& delaunay,
+                                                    const Progress& progress) {
+  constexpr std::size_t kBlock = 1 << 14;
+  std::vector<std::vector<std::array<VertexId, 2>>> parts(tin.halfedge_count() / kBlock + 1);
+  for_each_block(tin.halfedge_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const HalfedgeId h{i};
+      const VertexId a = tin.origin(h), b = tin.target(h);
+      if (!tin.represents_edge(h) || delaunay.find_halfedge(a, b).valid()) continue;
+      if (!delaunay.find_halfedge(b, a).valid())
+        parts[begin / kBlock].push_back({std::min(a, b), std::max(a, b)});
+    }
+  });
+  std::vector<std::array<VertexId, 2>> edges;
+  for (const auto& part : parts) edges.insert(edges.end(), part.begin(), part.end());
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
 /// Bounds over more triangulations, and what tells of their faces.
 void take_bounds(const FaceOptimizeResult& all, FaceOptimizeResult& result) {
   bool proved = true;
@@ -146,24 +166,14 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces&
   if (faces.narrowed) take_bounds(optimize_faces(delaunay, faces.faces, choice_of, progress), result);
   HigherOrderChoice choice;
   choice.criteria = std::move(result.criteria);
-  std::vector<Triangle> triangles;
   std::vector<std::size_t> histogram;
   for (const OrderTriangle& t : result.triangles) {
-    triangles.push_back(t.corners);
     choice.orders.push_back(static_cast<std::uint16_t>(t.order));
     if (t.order >= histogram.size()) histogram.resize(t.order + 1, 0);
     ++histogram[t.order];
   }
-  choice.tin = Tin({delaunay.points().begin(), delaunay.points().end()},
-                   {delaunay.heights().begin(), delaunay.heights().end()}, std::move(triangles),
-                   delaunay.constraint_edges());
-  for (std::size_t i = 0; i < choice.tin.halfedge_count(); ++i) {
-    const HalfedgeId h{i};
-    const VertexId a = choice.tin.origin(h), b = choice.tin.target(h);
-    if (!choice.tin.represents_edge(h) || delaunay.find_halfedge(a, b).valid()) continue;
-    if (!delaunay.find_halfedge(b, a).valid()) choice.new_edges.push_back({std::min(a, b), std::max(a, b)});
-  }
-  std::sort(choice.new_edges.begin(), choice.new_edges.end());
+  choice.tin = std::move(result.tin);
+  choice.new_edges = find_new_edges(choice.tin, delaunay, progress);
   choice.figures = {.definition = std::string(definition_name(labelling.definition)),
                     .order = labelling.order,
                     .only_flips = faces.only_flips,

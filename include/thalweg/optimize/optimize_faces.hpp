@@ -31,6 +31,7 @@ struct FaceOptimizeOptions {
 
 struct FaceOptimizeResult {
   std::vector<OrderTriangle> triangles;   ///< the result, sorted
+  Tin tin;                                ///< made of them
   std::vector<CriterionResult> criteria;  ///< as the options' criteria, and the sum of orders in its place
   std::size_t faces = 0;
   std::size_t partial_faces = 0;   ///< those of which only some triangulations were chosen from
