@@ -196,28 +196,30 @@ bool Pencil::is_empty(std::span<const Beside> side, std::size_t place) const {
 }
 
 // The nearest of the known on a side is no nearer than the nearest of all; the circle through that one holds
-// what is inside on the other side, and more.
+// what is inside on the other side, and more. On which side one is cannot be foretold, so nothing branches.
 bool Pencil::may_be_of_use(VertexId a, VertexId b, std::span<const VertexId> known) {
   const Point2 from = ground_->point(a), to = ground_->point(b);
-  known_left_.clear();
-  known_right_.clear();
+  known_left_.resize(known.size());
+  known_right_.resize(known.size());
+  std::size_t of_left = 0, of_right = 0;
   for (const VertexId x : known) {
-    if (x == a || x == b) continue;
-    const Position at = position(from, to, x);
-    const double across = std::abs(at.across);
-    if (across <= 2 * at.error) continue;
-    const double cotangent = at.along / across;
-    (at.across > 0 ? known_left_ : known_right_)
-        .push_back(cotangent + 2 * at.error * (1 + std::abs(cotangent)) / across);
+    const Position at = position(from, to, x);  // a and b are not certain to be on a side
+    const double across = std::abs(at.across), cotangent = at.along / across;
+    const double most = cotangent + 2 * at.error * (1 + std::abs(cotangent)) / across;
+    const auto certain = static_cast<unsigned>(across > 2 * at.error);
+    known_left_[of_left] = known_right_[of_right] = most;
+    of_left += certain & static_cast<unsigned>(at.across > 0);
+    of_right += certain & static_cast<unsigned>(at.across < 0);
   }
-  const auto few = [&](const std::vector<double>& one, const std::vector<double>& other) {
+  const auto few = [&](std::span<const double> one, std::span<const double> other) {
     if (one.empty() || other.size() <= most_) return true;
     const double least = *std::min_element(one.begin(), one.end());
     const auto inside =
         std::count_if(other.begin(), other.end(), [&](double cotangent) { return cotangent < -least; });
     return static_cast<std::size_t>(inside) <= most_;
   };
-  return few(known_left_, known_right_) && few(known_right_, known_left_);
+  const std::span<const double> left(known_left_.data(), of_left), right(known_right_.data(), of_right);
+  return few(left, right) && few(right, left);
 }
 
 }  // namespace thalweg::detail

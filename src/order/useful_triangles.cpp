@@ -14,8 +14,8 @@
 //    vertices. A triangle that is none of the ground has such an edge. One with a side that is of no use is
 //    in no triangulation, and so are all at an edge that has none on one side.
 // 3. Most edges that come up are of no use, and come up more than once. Those that meet for the first time in
-//    a block are tried on the vertices at hand: at order 3 of 10.1 edges a random point 2.5 are looked at,
-//    and 1.6 are of use.
+//    a block are tried on the vertices at hand: at order 3 2.4 edges a random point are looked at,
+//    and 1.5 are of use.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "order/pencil.hpp"

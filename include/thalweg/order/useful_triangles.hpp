@@ -16,8 +16,8 @@ namespace thalweg {
 /// Where nothing blocks, a search from edge to edge, outwards from the ground's own: all but EmptyQuad agree
 /// there. Else what find_order_triangles gives. Pre: the ground covers the convex hull where nothing blocks.
 /// Throws and reports: as find_order_triangles. Parallel; deterministic. Complexity: for each useful edge
-/// the faces of the ground that meet the larger ones of the discs through its ends with at most `max_order`
-/// vertices on one side inside.
+/// the faces of the ground that it crosses, and the neighbours of the `max_order` nearest vertices on either
+/// side.
 std::vector<OrderTriangle> find_useful_triangles(const ConstrainedOrder& ground,
                                                  const OrderTriangleOptions& options, Progress& progress);
 
