@@ -80,10 +80,11 @@ struct FlowGraph {
   RawVector<Channel> channels;
   std::size_t broken_cycles = 0;
   /// By halfedge. Of one that drains into a channel: that. Else, with Fall::In: what water comes to at its
-  /// origin; with Fall::Out in a triangle whose corner is low: what water over it comes to at that corner.
+  /// origin; with Fall::Out: what water over it comes to at its triangle's corner if that is low, from the
+  /// corner if it is high.
   RawVector<FlowNode> target;
   LargeVector<VertexStep> step;         ///< by vertex
-  LargeVector<FlowNode> next;           ///< by vertex: what its water comes to first, kNoNode: see sink
+  RawVector<FlowNode> next;             ///< by vertex: what its water comes to first, kNoNode: see sink
   LargeVector<std::uint32_t> sink;      ///< by vertex
   std::vector<HalfedgeId> rim;          ///< halfedges without a twin
   LargeVector<std::uint32_t> rim_sink;  ///< by vertex on the rim: of what leaves there

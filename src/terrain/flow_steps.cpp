@@ -1,7 +1,7 @@
 // Where the water of each vertex goes, and where it ends.
 //
 // 1. On a plateau: as resolve_flats says. Else the steepest way down that find_falls found. If it crosses a
-//    triangle, sweep_grounds has told what the line comes to.
+//    triangle, sweep_grounds has told what the line comes to beyond the side across.
 // 2. Rounding could name something that is not lower where all is level but for the last digits; then the
 //    lowest neighbour is next. So from each vertex the next one is lower, or of smaller rank, and chains end.
 // 3. The rim by itself: runs of level rim edges, and the rim vertices of one boundary pit, are one; each
@@ -29,6 +29,7 @@ class StepFinder {
   void find(VertexId v) const {
     VertexStep& step = graph_.step[v.index()];
     FlowNode& next = graph_.next[v.index()];
+    next = kNoNode;
     if (step.kind == Kind::Stay) return;
     const bool falls = step.squared_slope >= 0;
     if (step.kind == Kind::Edge && falls && mesh_.on_rim(step.edge) && graph_.drains(step.edge)) {
@@ -36,6 +37,7 @@ class StepFinder {
       return;
     }
     if (step.kind == Kind::Cross) {
+      next = graph_.target[step.edge.index()];
       if (is_below(v, next)) return;
       step = to_lowest_neighbour(v);
     }
@@ -196,6 +198,7 @@ void follow_chains(FlowGraph& graph) {
 }  // namespace
 
 void find_steps(FlowGraph& graph, const Progress& progress) {
+  graph.next.resize(graph.mesh.vertex_count());
   const StepFinder finder(graph);
   for_each_block(graph.mesh.vertex_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) finder.find(VertexId{v});

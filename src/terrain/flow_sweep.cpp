@@ -2,116 +2,201 @@
 //
 // 1. From both sides of each channel a strip of all water that comes to it first is followed upwards. Where
 //    it meets a high corner it parts; above a low corner it is a part of the side. Strips never meet, so
-//    channels are done side by side, and each sums up its ground by itself: sums do not depend on threads.
-// 2. Water on a level triangle comes to its low corner.
+//    blocks of channels are done side by side, and each sums up its ground by itself: sums do not depend on
+//    threads.
+// 2. The strips of a block wait in one queue, and are taken from it in batches: what is computed of one does
+//    not wait for what was computed of others. All are treated alike, in loops over columns without branches,
+//    which could not be foreseen.
+// 3. Water on a level triangle comes to its low corner.
 #include "base/parallel.hpp"
 #include "terrain/flow_graph.hpp"
-#include "terrain/uphill.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
-#include <vector>
+#include <cstdint>
 
 namespace thalweg {
 
 namespace {
 
 constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kSweptAtOnce = 512;  // nodes whose triangles and strips stay in a core's cache
+constexpr std::size_t kBatch = 64;
+using Column = std::array<double, kBatch>;
+/// Strips of water that come to an Out side of a triangle, and how the triangle parts them.
+///
+/// What comes to the side below its middle came over one other side (of number 0), what comes above it over
+/// another (of number 1). Beside a low corner, where all came over the split side, the middle is an end.
+/// What is so has the flag 1, else 0.
+struct Batch {
+  // Given.
+  Column low, high;   ///< shares of the way along the side's twin
+  Column at, area;    ///< of the triangle
+  Column low_corner;  ///< the side is beside a low corner ...
+  Column before;      ///< ... and comes before the split side
+  // Found: the part of the strip that came over each side, as shares of its way.
+  std::array<Column, 2> begin, end;
+  std::array<Column, 2> some;         ///< there is such a part ...
+  std::array<Column, 2> from_origin;  ///< ... and it begins at the side's origin
+  Column holds_middle;
+  Column ground;  ///< area of the strip in the triangle
+  // Between.
+  Column middle, scale_0, scale_1;
+};
 
-/// Follows the strips of one channel after another.
+// The choice is made before sanitizers are ready.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void part(Batch& batch) {
+  // Loops of their own, and flags as numbers, so that GCC 12 makes vector instructions of them.
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double top = 1 - batch.at[i];
+    batch.middle[i] = top;
+    batch.scale_0[i] = 1 / top;
+    batch.scale_1[i] = 1 / (1 - top);
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double at = batch.at[i], top = batch.middle[i], below = batch.scale_0[i], above = batch.scale_1[i];
+    const bool low_corner = batch.low_corner[i] != 0;
+    batch.middle[i] = low_corner ? batch.before[i] : top;
+    batch.scale_0[i] = low_corner ? at : below;  // by what shares grow on the way to each side
+    batch.scale_1[i] = low_corner ? top : above;
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    // The area of a strip is the difference of squares of the distances from the end of the side.
+    const double low = batch.low[i], high = batch.high[i], middle = batch.middle[i];
+    const double to = std::min(high, middle), from = std::max(low, middle);
+    const double doubled_0 = std::max(to - low, 0.0) * (to + low);
+    const double doubled_1 = std::max(high - from, 0.0) * (2 - from - high);
+    batch.ground[i] = batch.area[i] * (batch.scale_0[i] * doubled_0 + batch.scale_1[i] * doubled_1);
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double end = batch.low_corner[i] != 0 ? batch.at[i] : 1.0;
+    const double low = batch.low[i] * batch.scale_0[i], high = batch.high[i] * batch.scale_0[i];
+    const double inner = std::min(high, end);
+    batch.begin[0][i] = std::min(low, end);
+    batch.end[0][i] = batch.high[i] < batch.middle[i] ? inner : end;
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double begin = batch.low_corner[i] * batch.at[i];
+    const double middle = batch.middle[i], from = std::max(batch.low[i], middle);
+    const double low = begin + (from - middle) * batch.scale_1[i];
+    const double high = begin + (batch.high[i] - middle) * batch.scale_1[i];
+    const double inner = std::min(high, 1.0);
+    batch.begin[1][i] = std::min(low, 1.0);
+    batch.end[1][i] = batch.high[i] < 1 ? inner : 1.0;
+  }
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double below = batch.low[i] < batch.middle[i] ? 1.0 : 0.0;
+    const double above = batch.high[i] > batch.middle[i] ? 1.0 : 0.0;
+    const double part_0 = batch.begin[0][i] < batch.end[0][i] ? below : 0.0;
+    const double part_1 = batch.begin[1][i] < batch.end[1][i] ? above : 0.0;
+    batch.some[0][i] = part_0;
+    batch.some[1][i] = part_1;
+    batch.from_origin[0][i] = batch.begin[0][i] == 0 ? part_0 : 0.0;
+    batch.from_origin[1][i] = batch.begin[1][i] == 0 ? part_1 : 0.0;
+    const double at_end = batch.high[i] == 1 ? batch.before[i] : 0.0;
+    batch.holds_middle[i] = batch.low[i] <= batch.middle[i] ? std::max(above, at_end) : 0.0;
+  }
+}
+
+/// Follows the strips of a block of channels.
 class Sweep {
  public:
-  explicit Sweep(FlowGraph& graph) : graph_(graph) {}
+  explicit Sweep(FlowGraph& graph)
+      : graph_(graph), targets_({&elsewhere_, graph.target.data()}), streams_(4 * kSweptAtOnce) {}
+  Sweep(const Sweep&) = delete;
+  Sweep& operator=(const Sweep&) = delete;
+  ~Sweep() = default;
 
-  /// The ground of the channel.
-  double run(FlowNode channel) {
-    node_ = channel;
-    area_ = 0;
-    const HalfedgeId h = graph_.channel_of(channel).edge, twin = graph_.mesh.twin(h);
-    if (graph_.fall(h) == Fall::Out) climb(h);
-    if (twin.valid() && graph_.fall(twin) == Fall::Out) climb(twin);
-    return area_;
+  /// The grounds of the channels of these numbers.
+  void run(std::size_t begin, std::size_t end) {
+    count_ = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto node = static_cast<FlowNode>(i);
+      graph_.ground[i] = 0;
+      if (graph_.is_vertex(node)) continue;
+      const HalfedgeId h = graph_.channel_of(node).edge, twin = graph_.mesh.twin(h);
+      streams_[count_] = {h, node, 0, 1};
+      count_ += graph_.fall(h) == Fall::Out ? 1 : 0;
+      streams_[count_] = {twin, node, 0, 1};
+      count_ += twin.valid() && graph_.fall(twin) == Fall::Out ? 1 : 0;
+    }
+    for (std::size_t next = 0; next < count_;) {
+      const std::size_t stop = std::min(next + kBatch, count_);
+      if (streams_.size() < count_ + 2 * kBatch) streams_.resize(2 * streams_.size());
+      load(next, stop);
+      part(batch_);
+      for (std::size_t i = 0; next + i < stop; ++i) climb(streams_[next + i], i);
+      next = stop;
+    }
   }
 
  private:
-  /// Water that runs over `side` out of its triangle, between two shares of the way along its twin.
+  /// Water that comes to a node, and runs over `side` out of its triangle.
   struct Stream {
     HalfedgeId side;
+    FlowNode node;
     double low, high;
   };
 
-  void climb(HalfedgeId side) {
-    streams_.push_back({side, 0, 1});
-    while (!streams_.empty()) {
-      const Stream stream = streams_.back();
-      streams_.pop_back();
-      const Inflow& inflow = graph_.inflows[stream.side.index() / 3];
-      inflow.shape.corner_is_low != 0 ? climb_beside_corner(stream, inflow) : climb_below_top(stream, inflow);
+  void load(std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; begin + i < end; ++i) {
+      const Stream& stream = streams_[begin + i];
+      const std::size_t t = stream.side.index() / 3, side = stream.side.index() - 3 * t;
+      const TriangleShape shape = graph_.inflows[t].shape;
+      batch_.low[i] = stream.low;
+      batch_.high[i] = stream.high;
+      batch_.at[i] = graph_.strips[t].at;
+      batch_.area[i] = graph_.strips[t].area;
+      const int low_corner = shape.corner_is_low;
+      batch_.low_corner[i] = low_corner;
+      batch_.before[i] = low_corner & (side == kPreviousSide[shape.split] ? 1 : 0);
     }
   }
 
-  // The area of a strip is the difference of squares of its distances from the corner.
-  static double difference(double p, double q) { return std::abs((q - p) * (q + p)); }
-
-  // Without jumps: on which side of the corner a strip comes cannot be foreseen. As Uphill; at the ends of
-  // the side the sums are exact.
-  void climb_beside_corner(const Stream& stream, const Inflow& inflow) {
-    const TriangleStrip& triangle = graph_.strips[stream.side.index() / 3];
-    const std::size_t side = stream.side.index() % 3, split = inflow.shape.split;
-    const bool before = side == kPreviousSide[split];
-    const double begin = before ? 0 : triangle.at, share = before ? triangle.at : 1 - triangle.at;
-    const double p = before ? stream.low : 1 - stream.low, q = before ? stream.high : 1 - stream.high;
-    area_ += triangle.area * share * difference(p, q);
-    if ((before ? 1 - stream.high : stream.low) == 0) graph_.target[stream.side.index()] = node_;
-    enter(stream.side.index() - side + split, inflow.up[0], begin + stream.low * share,
-          begin + stream.high * share);
+  void climb(const Stream& stream, std::size_t i) {
+    const FlowNode node = stream.node;
+    const std::size_t t = stream.side.index() / 3, first = 3 * t, side = stream.side.index() - first;
+    const Inflow& inflow = graph_.inflows[t];
+    const std::size_t low = inflow.shape.corner_is_low, split = inflow.shape.split;
+    graph_.ground[node] += batch_.ground[i];
+    set_target(stream.side.index(), node, batch_.holds_middle[i]);
+    const std::array<std::size_t, 2> over_0 = {kNextSide[side], split}, over_1 = {kPreviousSide[side], split};
+    set_target(first + over_0[low], node, batch_.from_origin[0][i]);
+    set_target(first + over_1[low], node, batch_.from_origin[1][i]);
+    push(inflow.up[0], node, 0, i);
+    push(inflow.up[1 - low], node, 1, i);
   }
 
-  void climb_below_top(const Stream& stream, const Inflow& inflow) {
-    const TriangleStrip& triangle = graph_.strips[stream.side.index() / 3];
-    const std::size_t side = stream.side.index() % 3, first = stream.side.index() - side;
-    const double top = 1 - triangle.at;
-    if (stream.low < top) {
-      const Uphill uphill = Uphill::below_top(top);
-      const double low = uphill(stream.low), high = stream.high >= top ? 1 : uphill(stream.high);
-      area_ += triangle.area * top * difference(low, high);
-      enter(first + kNextSide[side], inflow.up[0], low, high);
-    }
-    if (stream.high <= top) return;
-    const Uphill uphill = Uphill::above_top(top);
-    const double low = uphill(stream.low), high = stream.high == 1 ? 1 : uphill(stream.high);
-    area_ += triangle.area * (1 - top) * difference(1 - low, 1 - high);
-    enter(first + kPreviousSide[side], inflow.up[1], low, high);
-    if (stream.low > top) return;
-    const VertexId corner = graph_.mesh.apex(stream.side);
-    const VertexStep& step = graph_.step[corner.index()];
-    if (step.kind == VertexStep::Kind::Cross && step.edge == stream.side) graph_.next[corner.index()] = node_;
+  void set_target(std::size_t h, FlowNode node, double flag) {
+    const auto really = static_cast<std::int64_t>(flag);
+    targets_[static_cast<std::size_t>(really)][h & static_cast<std::size_t>(-really)] = node;
   }
 
-  /// Comes to an In side from below, between two shares of its way, and goes on at `up`, if that is valid.
-  void enter(std::size_t in_side, HalfedgeId up, double low, double high) {
-    if (!(low < high)) return;
-    if (low == 0) graph_.target[in_side] = node_;
-    if (up.valid()) streams_.push_back({up, low, high});
+  void push(HalfedgeId up, FlowNode node, std::size_t over, std::size_t i) {
+    streams_[count_] = {up, node, batch_.begin[over][i], batch_.end[over][i]};
+    count_ +=
+        static_cast<std::size_t>(static_cast<std::int64_t>(batch_.some[over][i])) & (up.valid() ? 1U : 0U);
   }
 
   FlowGraph& graph_;
-  FlowNode node_ = kNoNode;
-  double area_ = 0;
-  std::vector<Stream> streams_;
+  FlowNode elsewhere_ = kNoNode;
+  std::array<FlowNode*, 2> targets_;  // so that one is set, or not, without a jump
+  RawVector<Stream> streams_;
+  std::size_t count_ = 0;
+  Batch batch_{};
 };
 
 }  // namespace
 
 void sweep_grounds(FlowGraph& graph, const Progress& progress) {
-  graph.next.assign(graph.mesh.vertex_count(), kNoNode);
   graph.ground.resize(graph.node_count());
   for_each_block(graph.node_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     Sweep sweep(graph);
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto node = static_cast<FlowNode>(i);
-      graph.ground[i] = graph.is_vertex(node) ? 0 : sweep.run(node);
-    }
+    for (std::size_t i = begin; i < end; i += kSweptAtOnce) sweep.run(i, std::min(end, i + kSweptAtOnce));
   });
   for (std::size_t t = 0; t < graph.mesh.triangle_count(); ++t) {
     if (!graph.level(TriangleId{t})) continue;
