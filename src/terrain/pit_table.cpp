@@ -9,11 +9,9 @@
 //    all.
 // 3. A pit that spills into a set ends at the level of that set's pit, known later: so from the last to the
 //    first each takes the fill height of the pit of the set it met.
-// 4. Under water is what is lower than the spill height and connected to the pit below it; a triangle counts
-// as
-//    far as it is submerged, cut along its shore. Two submerged corners of a triangle are connected by its
-//    edge, so it is of one pit; it is counted at its submerged corner of least id. Pits that have met on the
-//    way to the outside are done by one thread: waters of others have no vertex in common.
+// 4. Under water is what is lower than the spill height and connected to the pit below it (pit_water.cpp).
+//    Two submerged corners of a triangle are connected by its edge, so it is of one pit. Pits that have met
+//    on the way to the outside are done by one thread: waters of others have no vertex in common.
 // Based on: Barnes, Callaghan, Wickert, Computing water flow through complex landscapes - Part 2: Finding
 // hierarchies in depressions, 2020, section 3, for the idea of step 2.
 #include "base/buckets.hpp"
@@ -21,6 +19,7 @@
 #include "base/parallel.hpp"
 #include "base/union_find.hpp"
 #include "terrain/flow_graph.hpp"
+#include "terrain/pit_water.hpp"
 
 #include <thalweg/terrain/pit_table.hpp>
 
@@ -34,25 +33,6 @@ namespace thalweg {
 namespace {
 
 constexpr std::uint32_t kOutside = 0;
-
-struct Water {
-  double area = 0;
-  double volume = 0;
-};
-
-// The part of a triangle below `level`, of `area` as a whole.
-Water water_in(double p, double q, double r, double area) {
-  const double most = std::max(p, q), least = std::min(p, q);
-  const double a = std::max(most, r), c = std::min(least, r), b = std::max(least, std::min(most, r));
-  if (a <= 0) return {};
-  if (c >= 0) return {area, area * (a + b + c) / 3};
-  if (b <= 0) {
-    const double share = a / (a - b) * (a / (a - c));
-    return {area * share, area * share * a / 3};
-  }
-  const double dry = c / (c - a) * (c / (c - b));
-  return {area * (1 - dry), area * ((a + b + c) / 3 - dry * c / 3)};
-}
 
 /// An edge between two basins.
 struct Pass {
@@ -244,46 +224,17 @@ class Tabulator {
     reached_.assign(mesh_.vertex_count(), kNoPit);
     Buckets together = sort_into_buckets(last_met_, table_.pits.size());
     for_each_block(together.size(), kPits, progress, {0.5, 1}, [&](std::size_t begin, std::size_t end) {
-      std::vector<HalfedgeId> lake;
-      for (std::size_t last = begin; last < end; ++last) {
-        for (const std::uint32_t pit : together.items(last)) measure(pit, lake);
-      }
+      WaterGauge gauge(mesh_, reached_);
+      const std::span<const std::uint32_t> pits =
+          std::span(together.item)
+              .subspan(together.first[begin], together.first[end] - together.first[begin]);
+      for (const std::uint32_t pit : pits) gauge.flood(bottom_[pit], table_.pits[pit].spill_height, pit);
+      const std::vector<Water> water = gauge.measure();
+      for (std::size_t i = 0; i < pits.size(); ++i) fill_in(table_.pits[pits[i]], water[i]);
     });
   }
 
-  /// `lake`: room for what is under water, each vertex by a halfedge from it. None is on the rim.
-  void measure(std::uint32_t mark, std::vector<HalfedgeId>& lake) {
-    Pit& pit = table_.pits[mark];
-    lake.assign(1, mesh_.some_out(bottom_[mark]));
-    reached_[bottom_[mark].index()] = mark;
-    const auto reach = [&](VertexId v, HalfedgeId out) {
-      if (reached_[v.index()] == mark) return;
-      reached_[v.index()] = mark;
-      lake.push_back(out);
-    };
-    Water water;
-    std::size_t next = 0;
-    while (next < lake.size()) {
-      const HalfedgeId out = lake[next++];
-      const VertexId v = mesh_.origin(out);
-      const Point2 o = mesh_.point(v);
-      const double over_v = pit.spill_height - mesh_.height(v);
-      mesh_.for_each_out_around(out, [&](HalfedgeId h) {
-        const Triangle& corner = mesh_.triangle(Tin::triangle_of(h));
-        const std::size_t i = h.index() % 3, j = i == 2 ? 0 : i + 1, k = i == 0 ? 2 : i - 1;
-        const VertexId b = corner[j], c = corner[k];
-        const double over_b = pit.spill_height - mesh_.height(b), over_c = pit.spill_height - mesh_.height(c);
-        const bool wet_b = over_b > 0, wet_c = over_c > 0;
-        if (wet_b) reach(b, Tin::next(h));
-        if (wet_c) reach(c, Tin::previous(h));
-        if ((wet_b && b < v) || (wet_c && c < v)) return;
-        const Point2 p = mesh_.point(b), q = mesh_.point(c);
-        const double area = ((p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x)) / 2;
-        const Water part = water_in(over_v, over_b, over_c, area);
-        water.area += part.area;
-        water.volume += part.volume;
-      });
-    }
+  void fill_in(Pit& pit, const Water& water) const {
     const double square = scale_.horizontal_metres_per_unit * scale_.horizontal_metres_per_unit;
     pit.depth_m = (pit.spill_height - pit.height) * scale_.vertical_metres_per_unit;
     pit.area_m2 = water.area * square;
