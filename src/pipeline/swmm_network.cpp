@@ -54,7 +54,7 @@ class Tracer {
 
  private:
   [[nodiscard]] FlowPoint point_of(VertexId v) const {
-    return {.xy = tin_.point(v), .z = tin_.height(v), .edge = {}, .along = 0, .vertex = v};
+    return {.xy = tin_.point(v), .z = tin_.height(v), .along = 0, .edge = {}, .vertex = v};
   }
   [[nodiscard]] HalfedgeId representative(HalfedgeId h) const {
     const HalfedgeId twin = tin_.twin(h);

@@ -14,6 +14,7 @@
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <vector>
 
@@ -63,18 +64,33 @@ class LineFinder {
     lines_.ends.clear();
   }
 
-  void look_at(TriangleId t) {
-    const TriangleShape shape = graph_.shape[t.index()];
-    if (shape.corner_is_low == 0) return;
-    const HalfedgeId split = Tin::halfedge(t, shape.split);
-    const HalfedgeId after = Tin::next(split), before = Tin::previous(split);
-    if (graph_.fall(after) == Fall::Along || graph_.fall(before) == Fall::Along) return;
-    const std::uint32_t left = group_[graph_.target[after.index()]];
-    const std::uint32_t right = group_[graph_.target[before.index()]];
-    if (left != right) follow(split, left, right);
+  void look_at(std::size_t begin, std::size_t end) {
+    // Without a jump: at which corners water parts cannot be foreseen. Where the corner is high all is equal.
+    candidates_.resize(end - begin);
+    std::size_t count = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const TriangleShape shape = graph_.shape[t];
+      if (shape.level() || shape.has_along()) continue;
+      candidates_[count] = TriangleId{t};
+      count += group_left_of(t, shape) != group_right_of(t, shape) ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t t = candidates_[i].index();
+      const TriangleShape shape = graph_.shape[t];
+      follow(Tin::halfedge(candidates_[i], shape.split), group_left_of(t, shape), group_right_of(t, shape));
+    }
   }
 
  private:
+  [[nodiscard]] std::uint32_t group_left_of(std::size_t t, TriangleShape shape) const {
+    const std::array<unsigned, 2> side = {shape.split, kNextSide[shape.split]};
+    return group_[graph_.target[3 * t + side[shape.corner_is_low]]];
+  }
+  [[nodiscard]] std::uint32_t group_right_of(std::size_t t, TriangleShape shape) const {
+    const std::array<unsigned, 2> side = {shape.split, kPreviousSide[shape.split]};
+    return group_[graph_.target[3 * t + side[shape.corner_is_low]]];
+  }
+
   // From the corner across `h`, a split In side.
   void follow(HalfedgeId h, std::uint32_t left, std::uint32_t right) {
     std::uint32_t from = mesh_.apex(h).value();
@@ -113,6 +129,7 @@ class LineFinder {
   const FlowMesh& mesh_;
   std::span<const std::uint32_t> group_;
   Lines& lines_;
+  std::vector<TriangleId> candidates_;
 };
 
 /// The ends of lines by triangle, as lists.
@@ -135,21 +152,32 @@ class EdgeFinder {
     slot_.segments.clear();
   }
 
-  void look_at(TriangleId t) {
-    const unsigned sides = graph_.meeting_sides[t.index()];
-    for (std::size_t side = 0; sides >> side != 0; ++side) {
-      if ((sides >> side & 1U) == 0) continue;
-      const HalfedgeId h = Tin::halfedge(t, side), twin = mesh_.twin(h);
-      if (!is_ridge_in_one_ground(h, twin)) add_edge(h, twin);
+  void look_at(std::size_t begin, std::size_t end) {
+    // Without jumps, as above.
+    candidates_.resize(3 * (end - begin) + 1);
+    std::size_t count = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const unsigned sides = graph_.meeting_sides[t];
+      for (std::size_t side = 0; side < 3; ++side) {
+        candidates_[count] = Tin::halfedge(TriangleId{t}, side);
+        count += sides >> side & 1U;
+      }
     }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const HalfedgeId h = candidates_[i];
+      candidates_[left] = h;
+      left += is_ridge_in_one_ground(h, mesh_.twin(h)) ? 0 : 1;
+    }
+    for (std::size_t i = 0; i < left; ++i) add_edge(candidates_[i], mesh_.twin(candidates_[i]));
   }
 
  private:
   /// True for most ridges.
   [[nodiscard]] bool is_ridge_in_one_ground(HalfedgeId h, HalfedgeId twin) const {
-    return twin.valid() && graph_.fall(h) == Fall::In && graph_.fall(twin) == Fall::In &&
-           ends_.first[h.index() / 3] == kNone && ends_.first[twin.index() / 3] == kNone &&
-           group_[graph_.target[h.index()]] == group_[graph_.target[twin.index()]];
+    if (!twin.valid() || graph_.fall(h) != Fall::In || graph_.fall(twin) != Fall::In) return false;
+    return (ends_.first[h.index() / 3] == kNone) & (ends_.first[twin.index() / 3] == kNone) &
+           (group_[graph_.target[h.index()]] == group_[graph_.target[twin.index()]]);
   }
 
   /// Fills `ends` with those on h, by share; of those at the same place each comes where the ground of the
@@ -229,6 +257,7 @@ class EdgeFinder {
   std::span<const std::uint32_t> group_;
   const LineEnds& ends_;
   Slot& slot_;
+  std::vector<HalfedgeId> candidates_;
 };
 
 /// Adds a block's lines, whose points begin where those of the blocks before it end.
@@ -259,14 +288,14 @@ FlowPoint CatchmentBorders::point(const FlowGraph& graph, std::uint32_t number) 
   const FlowMesh& mesh = graph.mesh;
   if (number < mesh.vertex_count()) {
     const VertexId v{number};
-    return {.xy = mesh.point(v), .z = mesh.height(v), .edge = {}, .along = 0, .vertex = mesh.given(v)};
+    return {.xy = mesh.point(v), .z = mesh.height(v), .along = 0, .edge = {}, .vertex = mesh.given(v)};
   }
   const auto [share, side] = points[number - mesh.vertex_count()];
   const Point2 a = mesh.point(mesh.origin(side)), b = mesh.point(mesh.target(side));
   return {.xy = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)},
           .z = 0,
-          .edge = mesh.given(side),
           .along = share,
+          .edge = mesh.given(side),
           .vertex = {}};
 }
 
@@ -294,8 +323,7 @@ CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint3
   for_each_block_in_order<Lines>(
       triangles, kBlock, progress,
       [&](std::size_t begin, std::size_t end, Lines& lines) {
-        LineFinder finder(grounds, lines);
-        for (std::size_t t = begin; t < end; ++t) finder.look_at(TriangleId{t});
+        LineFinder(grounds, lines).look_at(begin, end);
       },
       [&](std::size_t /*begin*/, std::size_t /*end*/, Lines& lines) {
         add_lines(graph, lines, borders, ends);
@@ -303,8 +331,7 @@ CatchmentBorders find_borders(const FlowGraph& graph, std::span<const std::uint3
   for_each_block_in_order<Slot>(
       triangles, kBlock, progress,
       [&](std::size_t begin, std::size_t end, Slot& slot) {
-        EdgeFinder finder(grounds, ends, slot);
-        for (std::size_t t = begin; t < end; ++t) finder.look_at(TriangleId{t});
+        EdgeFinder(grounds, ends, slot).look_at(begin, end);
       },
       [&](std::size_t /*begin*/, std::size_t /*end*/, const Slot& slot) {
         borders.segments.insert(borders.segments.end(), slot.segments.begin(), slot.segments.end());

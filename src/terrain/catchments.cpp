@@ -81,7 +81,7 @@ class Chainer {
 
   struct Passed {
     std::uint32_t first = 0;
-    FlowPoint point;
+    std::uint32_t point = 0;
   };
 
   [[nodiscard]] bool is_before(std::uint32_t s, std::uint32_t t) const {
@@ -125,7 +125,7 @@ class Chainer {
       --unused_;
       if (place_[first] != kNowhere) close(place_[first]);
       place_[first] = static_cast<std::uint32_t>(path_.size());
-      path_.push_back({first, borders_.point(graph_, segments_[s].from)});
+      path_.push_back({first, segments_[s].from});
       first = slot_from(segments_[s].to);
     }
     close(0);
@@ -159,7 +159,7 @@ class Chainer {
     ring.reserve(path_.size() - begin);
     for (std::size_t i = begin; i < path_.size(); ++i) {
       place_[path_[i].first] = kNowhere;
-      ring.push_back(path_[i].point);
+      ring.push_back(borders_.point(graph_, path_[i].point));
     }
     path_.resize(begin);
     if (ring.size() > 2) rings_.push_back(std::move(ring));

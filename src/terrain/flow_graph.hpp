@@ -35,6 +35,7 @@ struct TriangleShape {
   std::uint16_t corner_is_low : 1 = 0;
   [[nodiscard]] Fall fall(std::size_t side) const { return static_cast<Fall>(falls >> (2 * side) & 3U); }
   [[nodiscard]] bool level() const { return falls == 0; }
+  [[nodiscard]] bool has_along() const { return (falls & falls >> 1U & 0b010101U) != 0; }
 };
 
 /// One line of flow through a triangle that is not level, and what lies on both sides of it. Water enters

@@ -9,6 +9,7 @@
 //    which could not be foreseen.
 // 3. Water on a level triangle comes to its low corner.
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <algorithm>
@@ -180,6 +181,9 @@ class Sweep {
     streams_[count_] = {up, node, batch_.begin[over][i], batch_.end[over][i]};
     count_ +=
         static_cast<std::size_t>(static_cast<std::int64_t>(batch_.some[over][i])) & (up.valid() ? 1U : 0U);
+    const std::size_t t = up.index() / 3;  // of none: nothing is there, which does no harm
+    prefetch(&graph_.inflows[t]);
+    prefetch(&graph_.strips[t]);
   }
 
   FlowGraph& graph_;

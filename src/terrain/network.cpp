@@ -138,7 +138,7 @@ std::vector<Reach> find_network(const SurfaceFlow& flow, const Spilling& spillin
   std::vector<Reach> network;
   const auto vertex_point = [&](VertexId v) {
     return FlowPoint{
-        .xy = mesh.point(v), .z = mesh.height(v), .edge = {}, .along = 0, .vertex = mesh.given(v)};
+        .xy = mesh.point(v), .z = mesh.height(v), .along = 0, .edge = {}, .vertex = mesh.given(v)};
   };
   for (const FlowNode node : list_reaches(graph, sums)) {
     Reach reach{.area = sums.area(node), .strahler = sums.strahler(node)};

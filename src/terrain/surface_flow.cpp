@@ -66,7 +66,7 @@ class Walk {
 
   void arrive(VertexId v) {
     path_.points.push_back(
-        {.xy = mesh_.point(v), .z = mesh_.height(v), .edge = {}, .along = 0, .vertex = mesh_.given(v)});
+        {.xy = mesh_.point(v), .z = mesh_.height(v), .along = 0, .edge = {}, .vertex = mesh_.given(v)});
     vertex_ = v;
     side_ = {};
   }
@@ -77,8 +77,8 @@ class Walk {
     const double before = path_.points.empty() ? std::max(za, zb) : path_.points.back().z;
     path_.points.push_back({.xy = between(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), at),
                             .z = std::min(before, za + at * (zb - za)),
-                            .edge = mesh_.given(h),
                             .along = at,
+                            .edge = mesh_.given(h),
                             .vertex = {}});
     side_ = h;
     at_ = at;

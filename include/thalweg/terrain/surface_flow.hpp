@@ -54,9 +54,9 @@ struct Sink {
 struct FlowPoint {
   Point2 xy;
   double z = 0;
-  HalfedgeId edge;   ///< the point lies on this edge (both of a vertex's are invalid) ...
-  double along = 0;  ///< ... at this share of its way from origin to target
-  VertexId vertex;   ///< or is this vertex
+  double along = 0;  ///< the point lies at this share of the way from origin to target ...
+  HalfedgeId edge;   ///< ... of this edge (invalid: on none) ...
+  VertexId vertex;   ///< ... or is this vertex
 };
 
 struct FlowPath {
