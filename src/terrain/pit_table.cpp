@@ -9,9 +9,7 @@
 //    all.
 // 3. A pit that spills into a set ends at the level of that set's pit, known later: so from the last to the
 //    first each takes the fill height of the pit of the set it met.
-// 4. Under water is what is lower than the spill height and connected to the pit below it (pit_water.cpp).
-//    Two submerged corners of a triangle are connected by its edge, so it is of one pit. Pits that have met
-//    on the way to the outside are done by one thread: waters of others have no vertex in common.
+// 4. What each pit holds when it is full: pit_water.cpp.
 // Based on: Barnes, Callaghan, Wickert, Computing water flow through complex landscapes - Part 2: Finding
 // hierarchies in depressions, 2020, section 3, for the idea of step 2.
 #include "base/buckets.hpp"
@@ -25,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -210,28 +209,20 @@ class Tabulator {
       met.emplace_back(first ? y : x, first ? x : y);
     }
     std::reverse(met.begin(), met.end());
-    last_met_.resize(table_.pits.size());
-    std::iota(last_met_.begin(), last_met_.end(), 0U);
+    met_by_.assign(table_.pits.size() + 1, kOutside);
     for (const auto& [spilled, other] : met) {
       Pit& pit = table_.pits[spilled - 1];
       pit.fill_height = other == kOutside ? pit.spill_height : table_.pits[other - 1].fill_height;
-      if (other != kOutside) last_met_[spilled - 1] = last_met_[other - 1];
+      met_by_[spilled] = other;
     }
   }
 
   void measure_all(Progress& progress) {
-    constexpr std::size_t kPits = 64;
-    reached_.assign(mesh_.vertex_count(), kNoPit);
-    Buckets together = sort_into_buckets(last_met_, table_.pits.size());
-    for_each_block(together.size(), kPits, progress, {0.5, 1}, [&](std::size_t begin, std::size_t end) {
-      WaterGauge gauge(mesh_, reached_);
-      const std::span<const std::uint32_t> pits =
-          std::span(together.item)
-              .subspan(together.first[begin], together.first[end] - together.first[begin]);
-      for (const std::uint32_t pit : pits) gauge.flood(bottom_[pit], table_.pits[pit].spill_height, pit);
-      const std::vector<Water> water = gauge.measure();
-      for (std::size_t i = 0; i < pits.size(); ++i) fill_in(table_.pits[pits[i]], water[i]);
-    });
+    std::vector<double> level = {-std::numeric_limits<double>::infinity()};
+    for (const Pit& pit : table_.pits) level.push_back(pit.spill_height);
+    const std::vector<Water> water =
+        measure_water(graph_, {.of_vertex = basin_, .level = level, .met_by = met_by_}, progress);
+    for (std::size_t i = 0; i < table_.pits.size(); ++i) fill_in(table_.pits[i], water[i + 1]);
   }
 
   void fill_in(Pit& pit, const Water& water) const {
@@ -256,9 +247,9 @@ class Tabulator {
   const MetricScale& scale_;
   PitTable table_;
   std::vector<VertexId> bottom_;  // by pit: its vertex
-  std::vector<std::uint32_t> basin_of_sink_, last_met_;
-  LargeVector<std::uint32_t> basin_;  // by vertex: number of its pit, counted from 1, or outside
-  LargeVector<std::uint32_t> reached_;
+  std::vector<std::uint32_t> basin_of_sink_;
+  std::vector<std::uint32_t> met_by_;  // by basin: the one that goes on when its pit spills
+  RawVector<std::uint32_t> basin_;     // by vertex: number of its pit, counted from 1, or outside
 };
 
 }  // namespace

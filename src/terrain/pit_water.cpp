@@ -1,20 +1,24 @@
 // Water in pits.
 //
-// 1. Under water is what is lower than the level and connected to the bottom. A triangle is counted at its
-//    submerged corner of least id. Which vertices are wet, and were reached before, cannot be foreseen, so
-//    lists grow without jumps: what is not wanted is overwritten.
+// 1. A vertex is under the water of a pit if it is lower than the level and its own basin is one of those
+//    that the pit has met before it is full, its own included: along the path of its water it is connected to
+//    the bottom below its own height. Two corners of a triangle that are lower than the level are connected
+//    by an edge, so the lowest corner tells of which pits a triangle holds water.
 // 2. A triangle counts as far as it is submerged, cut along its shore: in batches, in loops over columns
 //    without branches.
+// 3. What blocks of triangles hold is added up in their order, so sums do not depend on threads.
 #include "terrain/pit_water.hpp"
 
-#include "terrain/flow_graph.hpp"
+#include "base/ordered_blocks.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace thalweg {
 
 namespace {
 
+constexpr std::size_t kBlock = 8192;
 constexpr std::size_t kBatch = 128;
 using Column = std::array<double, kBatch>;
 
@@ -47,70 +51,86 @@ void fill(Batch& batch) {
     const bool one = b <= 0, all = c >= 0;  // submerged corners
     const double area = one ? area_of_one : area_of_two, volume = one ? volume_of_one : volume_of_two;
     batch.area[i] = all ? whole : area;
-    batch.volume[i] = all ? whole * (a + b + c) / 3 : volume;
+    batch.volume[i] = all ? whole * mean : volume;
   }
 }
+
+/// A triangle that holds water of a pit.
+struct Submerged {
+  TriangleId triangle;
+  std::uint32_t basin = 0;
+};
+
+/// What a block of triangles holds.
+struct Held {
+  RawVector<Submerged> parts;
+  std::size_t count = 0;
+  RawVector<Water> water;  ///< of each part
+};
+
+class Gauge {
+ public:
+  Gauge(const FlowGraph& graph, const Basins& basins) : graph_(graph), mesh_(graph.mesh), basins_(basins) {}
+
+  void look_at(std::size_t begin, std::size_t end, Held& held) const {
+    list_parts(begin, end, held);
+    held.water.resize(held.count);
+    Batch batch{};
+    for (std::size_t i = 0; i < held.count; i += kBatch) {
+      const std::size_t count = std::min(kBatch, held.count - i);
+      for (std::size_t k = 0; k < count; ++k) load(held.parts[i + k], batch, k);
+      fill(batch);
+      for (std::size_t k = 0; k < count; ++k) held.water[i + k] = {batch.area[k], batch.volume[k]};
+    }
+  }
+
+ private:
+  // Without a jump for the first basin: whether a triangle is under water cannot be foreseen.
+  void list_parts(std::size_t begin, std::size_t end, Held& held) const {
+    held.count = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& c = mesh_.triangle(TriangleId{t});
+      const double p = mesh_.height(c[0]), q = mesh_.height(c[1]), r = mesh_.height(c[2]);
+      const double lower = std::min(p, q), lowest = std::min(lower, r);
+      const std::size_t which = r < lower ? 2 : q < p ? 1 : 0;
+      std::uint32_t basin = basins_.of_vertex[c[which].index()];
+      do {
+        if (held.count == held.parts.size()) held.parts.resize(2 * held.count + kBlock);
+        held.parts[held.count] = {TriangleId{t}, basin};
+        held.count += lowest < basins_.level[basin] ? 1 : 0;
+        basin = basins_.met_by[basin];
+      } while (basin != 0);
+    }
+  }
+
+  void load(const Submerged& part, Batch& batch, std::size_t k) const {
+    const Triangle& c = mesh_.triangle(part.triangle);
+    const double level = basins_.level[part.basin];
+    for (std::size_t i = 0; i < 3; ++i) batch.over[i][k] = level - mesh_.height(c[i]);
+    batch.whole[k] = graph_.strips[part.triangle.index()].area;
+  }
+
+  const FlowGraph& graph_;
+  const FlowMesh& mesh_;
+  const Basins& basins_;
+};
 
 }  // namespace
 
-void WaterGauge::reach(VertexId v, HalfedgeId out, bool wet) {
-  std::uint32_t& known = reached_[wet ? 1 : 0][v.index() & -static_cast<std::size_t>(wet)];
-  lake_[lake_count_] = out;
-  lake_count_ += known != mark_ ? 1 : 0;
-  known = mark_;
-}
-
-void WaterGauge::flood(VertexId bottom, double level, std::uint32_t mark) {
-  constexpr std::size_t kRoom = 1024;
-  const auto pit = static_cast<std::uint32_t>(levels_.size());
-  levels_.push_back(level);
-  mark_ = elsewhere_ = mark;
-  lake_.resize(std::max(lake_.size(), kRoom));
-  lake_count_ = 1;
-  lake_[0] = mesh_.some_out(bottom);
-  reached_[1][bottom.index()] = mark;
-  for (std::size_t next = 0; next < lake_count_; ++next) {
-    const HalfedgeId out = lake_[next];
-    const VertexId o = mesh_.origin(out);
-    mesh_.for_each_out_around(out, [&](HalfedgeId h) {
-      if (lake_count_ + 2 > lake_.size()) lake_.resize(2 * lake_.size());
-      if (triangle_count_ == triangles_.size()) triangles_.resize(2 * triangles_.size() + kRoom);
-      const std::size_t t = h.index() / 3, side = h.index() - 3 * t;
-      const Triangle& corner = mesh_.triangle(TriangleId{t});
-      const VertexId p = corner[kNextSide[side]], q = corner[kPreviousSide[side]];
-      const bool wet_p = mesh_.height(p) < level, wet_q = mesh_.height(q) < level;
-      reach(p, HalfedgeId{3 * t + kNextSide[side]}, wet_p);
-      reach(q, HalfedgeId{3 * t + kPreviousSide[side]}, wet_q);
-      triangles_[triangle_count_] = {o, p, q, pit};
-      triangle_count_ += (wet_p & (p < o)) | (wet_q & (q < o)) ? 0 : 1;
-    });
-  }
-}
-
-std::vector<Water> WaterGauge::measure() {
-  std::vector<Water> water(levels_.size());
-  Batch batch{};
-  for (std::size_t begin = 0; begin < triangle_count_; begin += kBatch) {
-    const std::size_t count = std::min(kBatch, triangle_count_ - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Submerged& t = triangles_[begin + i];
-      const double level = levels_[t.pit];
-      const Point2 o = mesh_.point(t.o), p = mesh_.point(t.p), q = mesh_.point(t.q);
-      batch.over[0][i] = level - mesh_.height(t.o);
-      batch.over[1][i] = level - mesh_.height(t.p);
-      batch.over[2][i] = level - mesh_.height(t.q);
-      batch.whole[i] = ((p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x)) / 2;
-    }
-    fill(batch);
-    for (std::size_t i = 0; i < count; ++i) {
-      Water& of_pit = water[triangles_[begin + i].pit];
-      of_pit.area += batch.area[i];
-      of_pit.volume += batch.volume[i];
-    }
-  }
-  triangle_count_ = 0;
-  levels_.clear();
-  return water;
+std::vector<Water> measure_water(const FlowGraph& graph, const Basins& basins, Progress& progress) {
+  const Gauge gauge(graph, basins);
+  std::vector<Water> sums(basins.level.size());
+  for_each_block_in_order<Held>(
+      graph.mesh.triangle_count(), kBlock, progress,
+      [&](std::size_t begin, std::size_t end, Held& held) { gauge.look_at(begin, end, held); },
+      [&](std::size_t /*begin*/, std::size_t /*end*/, const Held& held) {
+        for (std::size_t i = 0; i < held.count; ++i) {
+          Water& sum = sums[held.parts[i].basin];
+          sum.area += held.water[i].area;
+          sum.volume += held.water[i].volume;
+        }
+      });
+  return sums;
 }
 
 }  // namespace thalweg
