@@ -1,8 +1,8 @@
 // Water in pits.
 //
 // 1. A vertex is under the water of a pit if it is lower than the level and its own basin is one of those
-//    that the pit has met before it is full, its own included: along the path of its water it is connected to
-//    the bottom below its own height. Two corners of a triangle that are lower than the level are connected
+//    that the pit has met below that level, or its own: along the path of its water it is connected to the
+//    bottom below its own height. Two corners of a triangle that are lower than the level are connected
 //    by an edge, so the lowest corner tells of which pits a triangle holds water.
 // 2. A triangle counts as far as it is submerged, cut along its shore: in batches, in loops over columns
 //    without branches.
@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace thalweg {
 
@@ -94,10 +95,13 @@ class Gauge {
       const double lower = std::min(p, q), lowest = std::min(lower, r);
       const std::size_t which = r < lower ? 2 : q < p ? 1 : 0;
       std::uint32_t basin = basins_.of_vertex[c[which].index()];
+      double before = -std::numeric_limits<double>::infinity();
       do {
         if (held.count == held.parts.size()) held.parts.resize(2 * held.count + kBlock);
         held.parts[held.count] = {TriangleId{t}, basin};
-        held.count += lowest < basins_.level[basin] ? 1 : 0;
+        const double level = basins_.level[basin];
+        held.count += (lowest < level) & (before < level) ? 1 : 0;
+        before = level;
         basin = basins_.met_by[basin];
       } while (basin != 0);
     }
