@@ -25,8 +25,7 @@ namespace {
 
 constexpr std::size_t kBlock = 8192;
 
-/// Marks channels, and fills `inflows`; of each block of triangles the halfedges that stand for a
-/// channel.
+/// Marks channels and inflow; of each block of triangles the halfedges that stand for a channel.
 std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
   std::vector<std::vector<HalfedgeId>> found(mesh.triangle_count() / kBlock + 1);
@@ -35,8 +34,7 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
     std::size_t count = 0;
     for (std::size_t t = begin; t < end; ++t) {
       const TriangleShape shape = graph.shape[t];
-      unsigned channels = 0, meet = 0;
-      std::array<HalfedgeId, 3> up;
+      unsigned channels = 0, meet = 0, inflow = 0;
       for (std::size_t side = 0; side < 3; ++side) {
         const HalfedgeId h = Tin::halfedge(TriangleId{t}, side), twin = mesh.twin(h);
         const Fall fall = shape.fall(side), beyond = twin.valid() ? graph.fall(twin) : Fall::Level;
@@ -49,11 +47,9 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
         const bool runs_out = fall == Fall::Out, comes_in = beyond == Fall::Out;
         const bool one_ground = ((runs_out | comes_in) & goes_on) | (runs_out & comes_in);
         meet |= ((!one_ground & (h < twin)) ? 1U : 0U) << side;
-        up[side] = ((fall == Fall::In) & comes_in) ? twin : HalfedgeId{};
+        inflow |= (((fall == Fall::In) & comes_in) ? 1U : 0U) << side;
       }
-      const unsigned split = shape.split, after = kNextSide[split], before = kPreviousSide[split];
-      const bool low = shape.corner_is_low != 0;
-      graph.inflows[t] = {{up[low ? split : after], low ? HalfedgeId{} : up[before]}, shape};
+      graph.inflow_sides[t] = static_cast<std::uint8_t>(inflow);
       graph.channel_sides[t] = static_cast<std::uint8_t>(channels);
       graph.meeting_sides[t] = static_cast<std::uint8_t>(meet);
     }
@@ -67,7 +63,7 @@ std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progr
 void find_channels(FlowGraph& graph, const Progress& progress) {
   const FlowMesh& mesh = graph.mesh;
   graph.channel_sides.resize(mesh.triangle_count());
-  graph.inflows.resize(mesh.triangle_count());
+  graph.inflow_sides.resize(mesh.triangle_count());
   graph.meeting_sides.resize(mesh.triangle_count());
   graph.target.resize(mesh.halfedge_count());
   const std::vector<std::vector<HalfedgeId>> found = mark_channels(graph, progress);
@@ -109,8 +105,10 @@ void pass_from(TriangleId start, const FlowGraph& graph, Waiting& waiting) {
   while (!ready.empty()) {
     const TriangleId t = ready.back();
     ready.pop_back();
-    for (const HalfedgeId side : graph.inflows[t.index()].up) {
-      if (side.valid() && --waiting[side.index() / 3] == 0) ready.push_back(Tin::triangle_of(side));
+    for (std::size_t side = 0; side < 3; ++side) {
+      if ((graph.inflow_sides[t.index()] >> side & 1U) == 0) continue;
+      const TriangleId up = Tin::triangle_of(graph.mesh.twin(Tin::halfedge(t, side)));
+      if (--waiting[up.index()] == 0) ready.push_back(up);
     }
   }
 }
@@ -170,10 +168,10 @@ class CycleSearch {
 /// False only if there is none.
 bool may_have_cycle(const FlowGraph& graph, const Progress& progress) {
   std::atomic<bool> may{false};
-  for_each_block(graph.mesh.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+  for_each_block(graph.obtuse.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     CycleSearch search(graph);
-    for (std::size_t t = begin; t < end && !may.load(std::memory_order_relaxed); ++t) {
-      if (search.may_begin_cycle(TriangleId{t})) may = true;
+    for (std::size_t i = begin; i < end && !may.load(std::memory_order_relaxed); ++i) {
+      if (search.may_begin_cycle(graph.obtuse[i])) may = true;
     }
   });
   return may;
@@ -201,9 +199,7 @@ TriangleId break_cycle(FlowGraph& graph, Waiting& waiting, TriangleId t) {
     }
     const HalfedgeId least = std::min(over, twin);
     graph.meeting_sides[least.index() / 3] |= static_cast<std::uint8_t>(1U << (least.index() % 3));
-    for (HalfedgeId& side : graph.inflows[next.index()].up) {
-      if (side == over) side = {};
-    }
+    graph.inflow_sides[next.index()] &= static_cast<std::uint8_t>(~(1U << (twin.index() % 3)));
     graph.target[over.index()] = static_cast<FlowNode>(graph.node_count());
     graph.channels.push_back({least, graph.low_end(over), false});
     ++graph.broken_cycles;

@@ -36,6 +36,7 @@ struct Batch {
   Column split_at, area;
   std::array<Column, 3> down;  ///< squared slope of each side that falls, from its origin; else kNone
   Column slope;                ///< squared
+  Column obtuse;  ///< 1 if one side is In, and the corner across is not the lowest of all; else 0
 };
 
 struct Corner {
@@ -104,6 +105,15 @@ void measure(Batch& batch) {
     batch.split_at[i] = part / whole;
   }
   for (std::size_t i = 0; i < kBatch; ++i) batch.split_at[i] = inner_share(batch.split_at[i]);
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    const double a = batch.z[0][i], b = batch.z[1][i], c = batch.z[2][i];
+    const double over_ab = c < std::min(a, b) ? 0.0 : 1.0, over_bc = a < std::min(b, c) ? 0.0 : 1.0;
+    const double over_ca = b < std::min(c, a) ? 0.0 : 1.0;
+    const double ab = batch.fall[0][i] < 0 ? 1.0 : 0.0, bc = batch.fall[1][i] < 0 ? 1.0 : 0.0;
+    const double ca = batch.fall[2][i] < 0 ? 1.0 : 0.0;
+    const double obtuse = ab * over_ab + bc * over_bc + ca * over_ca;
+    batch.obtuse[i] = ab + bc + ca == 1 ? obtuse : 0.0;
+  }
 }
 
 /// A way down from a vertex.
@@ -116,6 +126,7 @@ struct Way {
 struct Part {
   VertexId begin, end;    ///< the vertices for which it chooses
   std::vector<Way> ways;  ///< of others
+  std::vector<TriangleId> obtuse;
   std::vector<HalfedgeId> rim;
 };
 
@@ -134,13 +145,20 @@ class FallFinder {
       Part& part = parts[begin / kPart];
       part.begin = begin == 0 ? VertexId{std::size_t{0}} : smallest_vertex(TriangleId{begin});
       part.end = end == count ? VertexId{mesh_.vertex_count()} : smallest_vertex(TriangleId{end});
+      part.obtuse.resize(end - begin);
+      std::size_t obtuse = 0;
       Batch batch{};
       for (std::size_t t = begin; t < end; t += kBatch) {
         const std::size_t stop = std::min(end, t + kBatch);
         load(t, stop, batch);
         measure(batch);
         store(t, stop, batch, part);
+        for (std::size_t i = t; i < stop; ++i) {
+          part.obtuse[obtuse] = TriangleId{i};
+          obtuse += static_cast<std::size_t>(static_cast<int>(batch.obtuse[i - t]));
+        }
       }
+      part.obtuse.resize(obtuse);
       for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
         if (mesh_.on_rim(HalfedgeId{h})) part.rim.push_back(HalfedgeId{h});
       }
@@ -148,6 +166,7 @@ class FallFinder {
     for (const Part& part : parts) {
       for (const Way& way : part.ways) choose(way.from, way.step);
       graph_.rim.insert(graph_.rim.end(), part.rim.begin(), part.rim.end());
+      graph_.obtuse.insert(graph_.obtuse.end(), part.obtuse.begin(), part.obtuse.end());
     }
     for (const HalfedgeId h : graph_.rim) offer_upwards(h);
   }
@@ -170,7 +189,7 @@ class FallFinder {
     }
   }
 
-  void store(std::size_t begin, std::size_t end, const Batch& batch, Part& part) {
+  void store(std::size_t begin, std::size_t end, Batch& batch, Part& part) {
     for (std::size_t t = begin; t < end; ++t) {
       const std::size_t i = t - begin;
       const double ab = batch.fall[0][i], bc = batch.fall[1][i], ca = batch.fall[2][i];
@@ -180,6 +199,7 @@ class FallFinder {
         graph_.strips[t].at = batch.split_at[i];
       } else {
         look_at(TriangleId{t});
+        batch.obtuse[i] = graph_.shape[t].corner_is_low;  // not sure
       }
       graph_.strips[t].area = batch.area[i];
       offer(TriangleId{t}, batch, i, part);

@@ -52,13 +52,6 @@ struct TriangleStrip {
   double area = 0;
 };
 
-/// Over which sides of others water comes into a triangle.
-struct Inflow {
-  /// Over the side that is split; or over the one after it and the one before it. Invalid: none.
-  std::array<HalfedgeId, 2> up;
-  TriangleShape shape;  ///< as in `FlowGraph::shape`: near in memory
-};
-
 /// An edge along which water runs.
 struct Channel {
   HalfedgeId edge;  ///< the lower of its two
@@ -72,13 +65,14 @@ struct FlowGraph {
   Flats flats;
   RawVector<TriangleShape> shape;         ///< by triangle
   RawVector<TriangleStrip> strips;        ///< by triangle
-  RawVector<Inflow> inflows;              ///< by triangle
+  RawVector<std::uint8_t> inflow_sides;   ///< by triangle: a bit a side over which water comes into it
   RawVector<std::uint8_t> channel_sides;  ///< by triangle: a bit a side; both triangles of an edge agree
   /// By triangle: a bit a side that stands for an edge along which grounds may meet: the rim, ridges, beside
   /// level triangles; not where all water goes on, or both sides drain into a channel.
   RawVector<std::uint8_t> meeting_sides;
   /// By number: those that the falls make, by halfedge, then those that break cycles.
   RawVector<Channel> channels;
+  std::vector<TriangleId> obtuse;  ///< those with one In side, if the corner across may not be the lowest
   std::size_t broken_cycles = 0;
   /// By halfedge. Of one that drains into a channel: that. Else, with Fall::In: what water comes to at its
   /// origin; with Fall::Out: what water over it comes to at its triangle's corner if that is low, from the

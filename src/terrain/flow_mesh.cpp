@@ -84,7 +84,8 @@ void FlowMesh::number_triangles(const Progress& progress) {
       smallest[t] = std::min({own(c[0]), own(c[1]), own(c[2])}).value();
     }
   });
-  std::vector<std::uint32_t> next(tin_.vertex_count() + 1, 0);
+  std::vector<std::uint32_t>& next = end_of_triangles_;  // first where they begin
+  next.assign(tin_.vertex_count() + 1, 0);
   const auto for_each_in_ranges = [&](const auto& body) {
     for_each_range(tin_.vertex_count(), progress, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = 0; t < count; ++t) {

@@ -77,7 +77,14 @@ class FlowMesh {
     } while (h != start);
   }
   /// A halfedge that starts at v. Pre: v is in a triangle.
-  [[nodiscard]] HalfedgeId some_out(VertexId v) const { return own(tin_.outgoing(given(v)).front()); }
+  [[nodiscard]] HalfedgeId some_out(VertexId v) const {
+    if (!same() && end_of_triangles_[v.index()] > (v.index() == 0 ? 0 : end_of_triangles_[v.index() - 1])) {
+      const TriangleId t{end_of_triangles_[v.index()] - std::size_t{1}};
+      const Triangle& c = triangle(t);
+      return Tin::halfedge(t, c[0] == v ? 0 : c[1] == v ? 1 : 2);
+    }
+    return own(tin_.outgoing(given(v)).front());
+  }
 
  private:
   void number_vertices(const Progress& progress);
@@ -91,6 +98,7 @@ class FlowMesh {
   std::span<const HalfedgeId> twins_;
   RawVector<VertexId> given_vertex_, own_vertex_;
   RawVector<TriangleId> given_triangle_, own_triangle_;
+  std::vector<std::uint32_t> end_of_triangles_;  // by vertex: where those end of which it is the smallest
   RawVector<Point2> moved_points_;
   RawVector<double> moved_heights_;
   RawVector<Triangle> moved_triangles_;

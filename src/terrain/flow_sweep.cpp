@@ -147,7 +147,7 @@ class Sweep {
     for (std::size_t i = 0; begin + i < end; ++i) {
       const Stream& stream = streams_[begin + i];
       const std::size_t t = stream.side.index() / 3, side = stream.side.index() - 3 * t;
-      const TriangleShape shape = graph_.inflows[t].shape;
+      const TriangleShape shape = graph_.shape[t];
       batch_.low[i] = stream.low;
       batch_.high[i] = stream.high;
       batch_.at[i] = graph_.strips[t].at;
@@ -161,29 +161,29 @@ class Sweep {
   void climb(const Stream& stream, std::size_t i) {
     const FlowNode node = stream.node;
     const std::size_t t = stream.side.index() / 3, first = 3 * t, side = stream.side.index() - first;
-    const Inflow& inflow = graph_.inflows[t];
-    const std::size_t low = inflow.shape.corner_is_low, split = inflow.shape.split;
+    const TriangleShape shape = graph_.shape[t];
+    const std::size_t low = shape.corner_is_low, split = shape.split;
     graph_.ground[node] += batch_.ground[i];
     set_target(stream.side.index(), node, batch_.holds_middle[i]);
     const std::array<std::size_t, 2> over_0 = {kNextSide[side], split}, over_1 = {kPreviousSide[side], split};
-    set_target(first + over_0[low], node, batch_.from_origin[0][i]);
-    set_target(first + over_1[low], node, batch_.from_origin[1][i]);
-    push(inflow.up[0], node, 0, i);
-    push(inflow.up[1 - low], node, 1, i);
+    come_over(first, over_0[low], node, 0, i);
+    come_over(first, over_1[low], node, 1, i);
+  }
+
+  /// The part of number `part` came over `side` of the triangle whose first side is `first`.
+  void come_over(std::size_t first, std::size_t side, FlowNode node, std::size_t part, std::size_t i) {
+    set_target(first + side, node, batch_.from_origin[part][i]);
+    const HalfedgeId up = graph_.mesh.twin(HalfedgeId{first + side});
+    const std::size_t t = up.index() / 3;  // of none: nothing is there, which does no harm
+    prefetch(&graph_.strips[t]);
+    streams_[count_] = {up, node, batch_.begin[part][i], batch_.end[part][i]};
+    const auto some = static_cast<unsigned>(static_cast<int>(batch_.some[part][i]));
+    count_ += some & (graph_.inflow_sides[first / 3] >> side);
   }
 
   void set_target(std::size_t h, FlowNode node, double flag) {
     const auto really = static_cast<std::int64_t>(flag);
     targets_[static_cast<std::size_t>(really)][h & static_cast<std::size_t>(-really)] = node;
-  }
-
-  void push(HalfedgeId up, FlowNode node, std::size_t over, std::size_t i) {
-    streams_[count_] = {up, node, batch_.begin[over][i], batch_.end[over][i]};
-    count_ +=
-        static_cast<std::size_t>(static_cast<std::int64_t>(batch_.some[over][i])) & (up.valid() ? 1U : 0U);
-    const std::size_t t = up.index() / 3;  // of none: nothing is there, which does no harm
-    prefetch(&graph_.inflows[t]);
-    prefetch(&graph_.strips[t]);
   }
 
   FlowGraph& graph_;
