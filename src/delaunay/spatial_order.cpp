@@ -51,11 +51,13 @@ constexpr CurveTable make_curve() {
 
 constexpr CurveTable kCurve = make_curve();
 
+/// The key of a cell in a grid of so many levels.
+template <unsigned kOfLevels>
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   constexpr std::uint32_t kDigit = (1U << kLevelsAtOnce) - 1;
   std::uint64_t key = 0;
   std::uint32_t state = 0;
-  for (unsigned level = kLevels; level > 0;) {
+  for (unsigned level = kOfLevels; level > 0;) {
     level -= kLevelsAtOnce;
     const std::uint32_t entry = kCurve[state << 8U | (x >> level & kDigit) << 4U | (y >> level & kDigit)];
     key = key << 8U | (entry & 0xffU);
@@ -72,35 +74,50 @@ struct Keyed {
   }
 };
 
+/// A point's cell in a grid of fewer levels.
+struct CoarselyKeyed {
+  std::uint32_t key;
+  std::uint32_t index;
+};
+
+constexpr unsigned kDigitBits = 11;
+constexpr std::uint32_t kBuckets = 1U << kDigitBits;
+
+/// Sorts by `digit_of(item)` below kBuckets, and leaves the order of those that share it. `other`: room for
+/// as many.
+template <class Item, class DigitOf>
+void sort_by_digit(RawVector<Item>& items, RawVector<Item>& other, const Progress& progress,
+                   const DigitOf& digit_of) {
+  const std::size_t ranges = range_count(items.size());
+  std::vector<std::array<std::size_t, kBuckets>> start(ranges);  // each range's part of each bucket
+  const auto in_ranges = [&](const auto& body) {
+    for_each_block(ranges, 1, progress, [&](std::size_t i, std::size_t) {
+      const std::size_t begin = items.size() * i / ranges, end = items.size() * (i + 1) / ranges;
+      body(std::span(items).subspan(begin, end - begin), start[i]);
+    });
+  };
+  in_ranges([&](std::span<const Item> range, auto& count) {
+    count.fill(0);
+    for (const Item& item : range) ++count[digit_of(item)];
+  });
+  std::size_t next = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    for (auto& of_range : start) next += std::exchange(of_range[bucket], next);
+  }
+  in_ranges([&](std::span<const Item> range, auto& place) {
+    for (const Item& item : range) other[place[digit_of(item)]++] = item;
+  });
+  std::swap(items, other);
+}
+
 // By the upper 33 of the 56 bits, then what is equal in them by the rest.
 void sort_by_key(RawVector<Keyed>& keyed, const Progress& progress) {
-  constexpr unsigned kDigitBits = 11, kFirstBit = 23, kDigits = 3;
-  constexpr std::size_t kBuckets = 1U << kDigitBits;
+  constexpr unsigned kFirstBit = 23, kDigits = 3;
   RawVector<Keyed> other(keyed.size());
-  const std::size_t ranges = range_count(keyed.size());
-  std::vector<std::array<std::size_t, kBuckets>> start(ranges);  // each range's part of each bucket
-  for (std::size_t digit = 0; digit < kDigits; ++digit) {
-    const auto bucket_of = [&](const Keyed& k) {
+  for (unsigned digit = 0; digit < kDigits; ++digit) {
+    sort_by_digit(keyed, other, progress, [digit](const Keyed& k) {
       return k.key >> (kFirstBit + digit * kDigitBits) & (kBuckets - 1);
-    };
-    const auto in_ranges = [&](const auto& body) {
-      for_each_block(ranges, 1, progress, [&](std::size_t i, std::size_t) {
-        const std::size_t begin = keyed.size() * i / ranges, end = keyed.size() * (i + 1) / ranges;
-        body(std::span(keyed).subspan(begin, end - begin), start[i]);
-      });
-    };
-    in_ranges([&](std::span<const Keyed> range, auto& count) {
-      count.fill(0);
-      for (const Keyed& k : range) ++count[bucket_of(k)];
     });
-    std::size_t next = 0;
-    for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
-      for (auto& of_range : start) next += std::exchange(of_range[bucket], next);
-    }
-    in_ranges([&](std::span<const Keyed> range, auto& place) {
-      for (const Keyed& k : range) other[place[bucket_of(k)]++] = k;
-    });
-    std::swap(keyed, other);
   }
   for (std::size_t begin = 0; begin < keyed.size();) {
     std::size_t end = begin + 1;
@@ -110,24 +127,57 @@ void sort_by_key(RawVector<Keyed>& keyed, const Progress& progress) {
   }
 }
 
+/// The grid over the points' bounding box.
+class Grid {
+ public:
+  explicit Grid(std::span<const Point2> points) : box_(bounding_box(points)) {
+    const double side = std::max(box_.width(), box_.height());
+    scale_ = side > 0 ? (1U << kLevels) / side : 0;
+  }
+  [[nodiscard]] std::uint32_t column(Point2 p) const { return cell(p.x - box_.x_min); }
+  [[nodiscard]] std::uint32_t row(Point2 p) const { return cell(p.y - box_.y_min); }
+
+ private:
+  [[nodiscard]] std::uint32_t cell(double offset) const {  // infinite where the box is wider than all numbers
+    constexpr std::uint32_t kLast = (1U << kLevels) - 1;
+    return offset * scale_ < kLast ? static_cast<std::uint32_t>(offset * scale_) : kLast;
+  }
+
+  Box2 box_;
+  double scale_ = 0;
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
-  const Box2 box = bounding_box(points);
-  const double side = std::max(box.width(), box.height());
-  const double scale = side > 0 ? (1U << kLevels) / side : 0;
-  const auto cell = [scale](double offset) {  // infinite where the box is wider than all numbers
-    constexpr std::uint32_t kLast = (1U << kLevels) - 1;
-    return offset * scale < kLast ? static_cast<std::uint32_t>(offset * scale) : kLast;
-  };
+  const Grid grid(points);
   RawVector<Keyed> keyed(points.size());
   for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      keyed[i] = {hilbert_key(cell(points[i].x - box.x_min), cell(points[i].y - box.y_min)),
+      keyed[i] = {hilbert_key<kLevels>(grid.column(points[i]), grid.row(points[i])),
                   static_cast<std::uint32_t>(i)};
     }
   });
   if (!std::is_sorted(keyed.begin(), keyed.end())) sort_by_key(keyed, progress);
+  std::vector<std::uint32_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
+  return order;
+}
+
+std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, const Progress& progress) {
+  constexpr unsigned kCoarseLevels = 12, kSpare = 2 * kCoarseLevels - 2 * kDigitBits;
+  const Grid grid(points);
+  RawVector<CoarselyKeyed> keyed(points.size()), other(points.size());
+  for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    constexpr unsigned kFiner = kLevels - kCoarseLevels;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint64_t key =
+          hilbert_key<kCoarseLevels>(grid.column(points[i]) >> kFiner, grid.row(points[i]) >> kFiner);
+      keyed[i] = {static_cast<std::uint32_t>(key >> kSpare), static_cast<std::uint32_t>(i)};
+    }
+  });
+  sort_by_digit(keyed, other, progress, [](const CoarselyKeyed& k) { return k.key & (kBuckets - 1); });
+  sort_by_digit(keyed, other, progress, [](const CoarselyKeyed& k) { return k.key >> kDigitBits; });
   std::vector<std::uint32_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
   return order;

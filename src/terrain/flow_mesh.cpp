@@ -55,7 +55,7 @@ FlowMesh::FlowMesh(const Tin& tin, const Progress& progress)
 
 void FlowMesh::number_vertices(const Progress& progress) {
   const std::size_t n = tin_.vertex_count();
-  const std::vector<std::uint32_t> order = hilbert_order(tin_.points(), progress);
+  const std::vector<std::uint32_t> order = coarse_hilbert_order(tin_.points(), progress);
   given_vertex_.resize(n);
   own_vertex_.resize(n);
   moved_points_.resize(n);

@@ -40,6 +40,15 @@ struct Pass {
   VertexId high, low;  ///< its ends
 };
 
+using Edge = std::array<VertexId, 2>;
+
+/// The passes in a block of triangles.
+struct PassList {
+  RawVector<Edge> edges;  ///< the first `count` of them
+  std::size_t count = 0;
+  std::vector<Pass> passes;
+};
+
 class Tabulator {
  public:
   Tabulator(const SurfaceFlow& flow, const MetricScale& scale)
@@ -126,38 +135,54 @@ class Tabulator {
     return is_before(bottom_[x - 1], bottom_[y - 1]);
   }
 
+  /// Lists the edges between two basins, of the two triangles beside each for one; without a jump: which they
+  /// are cannot be foreseen.
+  void list_edges(std::size_t begin, std::size_t end, PassList& list) const {
+    list.edges.resize(3 * (end - begin) + 1);
+    std::size_t count = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& c = mesh_.triangle(TriangleId{t});
+      const std::array<std::uint32_t, 3> basin = {basin_[c[0].index()], basin_[c[1].index()],
+                                                  basin_[c[2].index()]};
+      for (std::size_t side = 0; side < 3; ++side) {
+        const std::size_t next = kNextSide[side];
+        list.edges[count] = {c[side], c[next]};
+        count += (basin[side] != basin[next]) & (c[side] < c[next]) ? 1 : 0;
+      }
+    }
+    list.count = count;
+  }
+
+  [[nodiscard]] Pass pass_over(const Edge& edge) const {
+    const auto [least, most] = std::minmax(basin_[edge[0].index()], basin_[edge[1].index()]);
+    const std::size_t low = is_before(edge[0], edge[1]) ? 0 : 1;
+    return {least, most, edge[1 - low], edge[low]};
+  }
+
   // Edges on the rim are outside. Of those between two basins in one block of triangles most are left out.
   [[nodiscard]] LargeVector<Pass> list_passes(const Progress& progress) const {
     LargeVector<Pass> passes;
     passes.reserve(mesh_.vertex_count() / 4);
-    const auto make = [&](std::size_t begin, std::size_t end, std::vector<Pass>& found) {
-      found.clear();
+    const auto make = [&](std::size_t begin, std::size_t end, PassList& list) {
+      list_edges(begin, end, list);
+      list.passes.clear();
       std::array<std::uint32_t, 256> latest{};  // pass of two basins, by a mix of their numbers
-      for (std::size_t t = begin; t < end; ++t) {
-        const Triangle& c = mesh_.triangle(TriangleId{t});
-        const std::array<std::uint32_t, 3> basin = {basin_[c[0].index()], basin_[c[1].index()],
-                                                    basin_[c[2].index()]};
-        if (basin[0] == basin[1] && basin[1] == basin[2]) continue;
-        for (std::size_t i = 0, j = 1; i < 3; ++i, j = j == 2 ? 0 : j + 1) {
-          if (basin[i] == basin[j] || c[j] < c[i]) continue;  // of the two triangles beside an edge, one
-          const auto [least, most] = std::minmax(basin[i], basin[j]);
-          const auto [low, high] = is_before(c[i], c[j]) ? std::pair(c[i], c[j]) : std::pair(c[j], c[i]);
-          const Pass pass{least, most, high, low};
-          std::uint32_t& known = latest[(least + 31 * most) % latest.size()];
-          if (known < found.size() && found[known].basin == least && found[known].other == most) {
-            if (is_before(pass, found[known])) found[known] = pass;
-          } else {
-            known = static_cast<std::uint32_t>(found.size());
-            found.push_back(pass);
-          }
+      for (std::size_t i = 0; i < list.count; ++i) {
+        const Pass pass = pass_over(list.edges[i]);
+        std::uint32_t& known = latest[(pass.basin + 31 * pass.other) % latest.size()];
+        if (known < list.passes.size() && list.passes[known].basin == pass.basin &&
+            list.passes[known].other == pass.other) {
+          if (is_before(pass, list.passes[known])) list.passes[known] = pass;
+        } else {
+          known = static_cast<std::uint32_t>(list.passes.size());
+          list.passes.push_back(pass);
         }
       }
     };
-    for_each_block_in_order<std::vector<Pass>>(
-        mesh_.triangle_count(), kBlock, progress, make,
-        [&](std::size_t /*begin*/, std::size_t /*end*/, const std::vector<Pass>& found) {
-          passes.insert(passes.end(), found.begin(), found.end());
-        });
+    for_each_block_in_order<PassList>(mesh_.triangle_count(), kBlock, progress, make,
+                                      [&](std::size_t /*begin*/, std::size_t /*end*/, const PassList& list) {
+                                        passes.insert(passes.end(), list.passes.begin(), list.passes.end());
+                                      });
     return passes;
   }
 
