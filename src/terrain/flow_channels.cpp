@@ -2,12 +2,13 @@
 //
 // 1. An edge is a channel if a triangle drains into it and none beyond takes the water in. Channels are
 //    numbered by halfedge.
-// 2. Whether triangles hand water round in a cycle. Let w be the lowest corner of a triangle, by height, then
-//    (x, y). Over a side at w it hands water to one whose lowest corner is no higher. In a cycle of such
-//    steps alone all have the same w and turn about it; but then the surface falls all the way round, which
-//    it cannot. So a cycle has a step over a side opposite of w (which takes an obtuse angle, where two Out
-//    sides meet), and one of these is at the lowest w of the cycle. From each such step all is looked through
-//    to which water is handed on before it comes to a lower corner: a few triangles.
+// 2. Whether triangles hand water round in a cycle. Let w be the lowest corner of a triangle, by height,
+//    then (x, y). Over a side at w it hands water to one whose lowest corner is no higher. In a cycle of
+//    such steps alone all have the same w and turn about it; but then the surface falls all the way round,
+//    which it cannot. So a cycle has a step over a side opposite of w (which takes an obtuse angle, where
+//    two Out sides meet: find_falls lists such triangles), and one of these is at the lowest w of the
+//    cycle. From each such step all is looked through to which water is handed on before it comes to a
+//    lower corner: a few triangles.
 // 3. If that comes back, or takes long, triangles are passed in an order in which each comes after those that
 //    it hands water to: each counts how many it waits for. What is left then waits for itself in a cycle: an
 //    edge of one is made a channel, and so on.
@@ -15,7 +16,6 @@
 #include "terrain/flow_graph.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <vector>
 

@@ -4,7 +4,8 @@
 // where
 //    rounding cannot change it, where the line of flow through the middle corner meets the side across, and
 //    the squares of the slopes of the triangle and its sides. As in the scalar functions, of which these are
-//    copies, all operations are rounded correctly and none is fused, so the bits are the same.
+//    copies, all operations are rounded correctly and none is fused, so the bits are the same. Triangles
+//    whose angle at the lowest corner may let water round in a cycle (flow_channels.cpp) are listed.
 // 2. Triangles with a side that is not sure, or level, are looked at one by one, by the exact predicate.
 // 3. The steepest way down from each vertex is chosen: an edge, or the line of flow of a triangle over both
 // of

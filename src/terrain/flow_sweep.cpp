@@ -9,7 +9,6 @@
 //    which could not be foreseen.
 // 3. Water on a level triangle comes to its low corner.
 #include "base/parallel.hpp"
-#include "base/prefetch.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <algorithm>
@@ -174,8 +173,6 @@ class Sweep {
   void come_over(std::size_t first, std::size_t side, FlowNode node, std::size_t part, std::size_t i) {
     set_target(first + side, node, batch_.from_origin[part][i]);
     const HalfedgeId up = graph_.mesh.twin(HalfedgeId{first + side});
-    const std::size_t t = up.index() / 3;  // of none: nothing is there, which does no harm
-    prefetch(&graph_.strips[t]);
     streams_[count_] = {up, node, batch_.begin[part][i], batch_.end[part][i]};
     const auto some = static_cast<unsigned>(static_cast<int>(batch_.some[part][i]));
     count_ += some & (graph_.inflow_sides[first / 3] >> side);

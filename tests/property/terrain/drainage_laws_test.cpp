@@ -147,6 +147,73 @@ TEST(PitTableLaws, FillHeightsAreThoseOfAFlood) {
   }
 }
 
+struct Body {
+  double area = 0, volume = 0;
+};
+
+/// The part of a triangle below a level, cut corner by corner.
+Body below(const Tin& tin, const Triangle& t, double level) {
+  struct Cut {
+    double x, y, depth;
+  };
+  std::vector<Cut> ring;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point2 p = tin.point(t[i]), q = tin.point(t[(i + 1) % 3]);
+    const double a = level - tin.height(t[i]), b = level - tin.height(t[(i + 1) % 3]);
+    if (a > 0) ring.push_back({p.x, p.y, a});
+    if ((a > 0) == (b > 0)) continue;
+    const double share = a / (a - b);
+    ring.push_back({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), 0});
+  }
+  Body body;
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    const Cut &o = ring[0], &p = ring[i - 1], &q = ring[i];
+    const double area = ((p.x - o.x) * (q.y - o.y) - (p.y - o.y) * (q.x - o.x)) / 2;
+    body.area += area;
+    body.volume += area * (o.depth + p.depth + q.depth) / 3;
+  }
+  return body;
+}
+
+/// What is connected to a vertex below a level.
+Body flood(const Tin& tin, VertexId bottom, double level) {
+  std::vector<bool> wet(tin.vertex_count(), false);
+  wet[bottom.index()] = true;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Triangle& t : tin.triangles()) {
+      if (std::none_of(t.begin(), t.end(), [&](VertexId v) { return wet[v.index()]; })) continue;
+      for (const VertexId v : t) {
+        if (wet[v.index()] || !(tin.height(v) < level)) continue;
+        wet[v.index()] = changed = true;
+      }
+    }
+  }
+  Body body;
+  for (const Triangle& t : tin.triangles()) {
+    if (std::none_of(t.begin(), t.end(), [&](VertexId v) { return wet[v.index()]; })) continue;
+    const Body part = below(tin, t, level);
+    body.area += part.area;
+    body.volume += part.volume;
+  }
+  return body;
+}
+
+TEST(PitTableLaws, WaterIsThatOfAFlood) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < 150; ++i) {
+    const Tin tin = test::random_terrain(i, random);
+    Progress progress;
+    const SurfaceFlow flow(tin, {}, progress);
+    for (const Pit& pit : tabulate_pits(flow, {}, progress).pits) {
+      const Body water = flood(tin, pit.vertex, pit.spill_height);
+      EXPECT_NEAR(pit.area_m2, water.area, 1e-9 * water.area) << "scene " << i;
+      EXPECT_NEAR(pit.volume_m3, water.volume, 1e-9 * water.volume) << "scene " << i;
+    }
+  }
+}
+
 TEST(NetworkLaws, AreasAddUpDownstream) {
   test::Random random;
   SCOPED_TRACE(random.trace());
