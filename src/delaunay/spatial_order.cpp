@@ -52,12 +52,12 @@ constexpr CurveTable make_curve() {
 constexpr CurveTable kCurve = make_curve();
 
 /// The key of a cell in a grid of so many levels.
-template <unsigned kOfLevels>
+template <unsigned Levels>
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   constexpr std::uint32_t kDigit = (1U << kLevelsAtOnce) - 1;
   std::uint64_t key = 0;
   std::uint32_t state = 0;
-  for (unsigned level = kOfLevels; level > 0;) {
+  for (unsigned level = Levels; level > 0;) {
     level -= kLevelsAtOnce;
     const std::uint32_t entry = kCurve[state << 8U | (x >> level & kDigit) << 4U | (y >> level & kDigit)];
     key = key << 8U | (entry & 0xffU);

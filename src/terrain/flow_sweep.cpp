@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 namespace thalweg {
 
@@ -27,7 +26,7 @@ using Column = std::array<double, kBatch>;
 ///
 /// What comes to the side below its middle came over one other side (of number 0), what comes above it over
 /// another (of number 1). Beside a low corner, where all came over the split side, the middle is an end.
-/// What is so has the flag 1, else 0.
+/// Of flags 1 is yes, 0 no.
 struct Batch {
   // Given.
   Column low, high;   ///< shares of the way along the side's twin
@@ -36,9 +35,9 @@ struct Batch {
   Column before;      ///< ... and comes before the split side
   // Found: the part of the strip that came over each side, as shares of its way.
   std::array<Column, 2> begin, end;
-  std::array<Column, 2> some;         ///< there is such a part ...
-  std::array<Column, 2> from_origin;  ///< ... and it begins at the side's origin
-  Column holds_middle;
+  /// A sum: 1, 2 if there is such a part of number 0, 1; 4, 8 if that begins at the side's origin; 16 if the
+  /// strip holds the middle.
+  Column found;
   Column ground;  ///< area of the strip in the triangle
   // Between.
   Column middle, scale_0, scale_1;
@@ -93,12 +92,11 @@ void part(Batch& batch) {
     const double above = batch.high[i] > batch.middle[i] ? 1.0 : 0.0;
     const double part_0 = batch.begin[0][i] < batch.end[0][i] ? below : 0.0;
     const double part_1 = batch.begin[1][i] < batch.end[1][i] ? above : 0.0;
-    batch.some[0][i] = part_0;
-    batch.some[1][i] = part_1;
-    batch.from_origin[0][i] = batch.begin[0][i] == 0 ? part_0 : 0.0;
-    batch.from_origin[1][i] = batch.begin[1][i] == 0 ? part_1 : 0.0;
+    const double first_0 = batch.begin[0][i] == 0 ? part_0 : 0.0;
+    const double first_1 = batch.begin[1][i] == 0 ? part_1 : 0.0;
     const double at_end = batch.high[i] == 1 ? batch.before[i] : 0.0;
-    batch.holds_middle[i] = batch.low[i] <= batch.middle[i] ? std::max(above, at_end) : 0.0;
+    const double middle = batch.low[i] <= batch.middle[i] ? std::max(above, at_end) : 0.0;
+    batch.found[i] = part_0 + 2 * part_1 + 4 * first_0 + 8 * first_1 + 16 * middle;
   }
 }
 
@@ -163,25 +161,29 @@ class Sweep {
     const TriangleShape shape = graph_.shape[t];
     const std::size_t low = shape.corner_is_low, split = shape.split;
     graph_.ground[node] += batch_.ground[i];
-    set_target(stream.side.index(), node, batch_.holds_middle[i]);
+    const Visit visit{first, node, static_cast<unsigned>(static_cast<int>(batch_.found[i])), i};
+    set_target(stream.side.index(), node, visit.found >> 4U);
     const std::array<std::size_t, 2> over_0 = {kNextSide[side], split}, over_1 = {kPreviousSide[side], split};
-    come_over(first, over_0[low], node, 0, i);
-    come_over(first, over_1[low], node, 1, i);
+    come_over(over_0[low], visit, 0);
+    come_over(over_1[low], visit, 1);
   }
 
-  /// The part of number `part` came over `side` of the triangle whose first side is `first`.
-  void come_over(std::size_t first, std::size_t side, FlowNode node, std::size_t part, std::size_t i) {
-    set_target(first + side, node, batch_.from_origin[part][i]);
-    const HalfedgeId up = graph_.mesh.twin(HalfedgeId{first + side});
-    streams_[count_] = {up, node, batch_.begin[part][i], batch_.end[part][i]};
-    const auto some = static_cast<unsigned>(static_cast<int>(batch_.some[part][i]));
-    count_ += some & (graph_.inflow_sides[first / 3] >> side);
+  /// A strip in a triangle.
+  struct Visit {
+    std::size_t first;  ///< side of the triangle
+    FlowNode node;
+    unsigned found;  ///< as in the batch ...
+    std::size_t i;   ///< ... at this place
+  };
+
+  void come_over(std::size_t side, const Visit& visit, unsigned part) {
+    set_target(visit.first + side, visit.node, visit.found >> (2 + part) & 1U);
+    streams_[count_] = {graph_.mesh.twin(HalfedgeId{visit.first + side}), visit.node,
+                        batch_.begin[part][visit.i], batch_.end[part][visit.i]};
+    count_ += visit.found >> part & graph_.inflow_sides[visit.first / 3] >> side & 1U;
   }
 
-  void set_target(std::size_t h, FlowNode node, double flag) {
-    const auto really = static_cast<std::int64_t>(flag);
-    targets_[static_cast<std::size_t>(really)][h & static_cast<std::size_t>(-really)] = node;
-  }
+  void set_target(std::size_t h, FlowNode node, std::size_t really) { targets_[really][h & -really] = node; }
 
   FlowGraph& graph_;
   FlowNode elsewhere_ = kNoNode;
