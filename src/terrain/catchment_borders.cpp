@@ -176,8 +176,10 @@ class EdgeFinder {
   /// True for most ridges.
   [[nodiscard]] bool is_ridge_in_one_ground(HalfedgeId h, HalfedgeId twin) const {
     if (!twin.valid() || graph_.fall(h) != Fall::In || graph_.fall(twin) != Fall::In) return false;
-    return (ends_.first[h.index() / 3] == kNone) & (ends_.first[twin.index() / 3] == kNone) &
-           (group_[graph_.target[h.index()]] == group_[graph_.target[twin.index()]]);
+    const bool ends_here = ends_.first[h.index() / 3] != kNone;
+    const bool ends_beyond = ends_.first[twin.index() / 3] != kNone;
+    const bool one_group = group_[graph_.target[h.index()]] == group_[graph_.target[twin.index()]];
+    return !ends_here & !ends_beyond & one_group;
   }
 
   /// Fills `ends` with those on h, by share; of those at the same place each comes where the ground of the

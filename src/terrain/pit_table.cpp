@@ -146,8 +146,9 @@ class Tabulator {
                                                   basin_[c[2].index()]};
       for (std::size_t side = 0; side < 3; ++side) {
         const std::size_t next = kNextSide[side];
+        const bool ascends = c[side] < c[next], differ = basin[side] != basin[next];
         list.edges[count] = {c[side], c[next]};
-        count += (basin[side] != basin[next]) & (c[side] < c[next]) ? 1 : 0;
+        count += (differ & ascends) ? 1 : 0;
       }
     }
     list.count = count;

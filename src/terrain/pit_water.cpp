@@ -100,7 +100,7 @@ class Gauge {
         if (held.count == held.parts.size()) held.parts.resize(2 * held.count + kBlock);
         held.parts[held.count] = {TriangleId{t}, basin};
         const double level = basins_.level[basin];
-        held.count += (lowest < level) & (before < level) ? 1 : 0;
+        held.count += ((lowest < level) & (before < level)) ? 1 : 0;
         before = level;
         basin = basins_.met_by[basin];
       } while (basin != 0);
