@@ -61,13 +61,6 @@ class Resolver {
     return drained_[v.index()] != 0 || flats_.rank[v.index()] != 0 || flats_.pit[v.index()] != kNoPit;
   }
 
-  /// As FlowMesh::for_each_neighbour, in some order; inside of the TIN it costs less.
-  template <class Visit>
-  void for_each_neighbour(VertexId v, const Visit& visit) const {
-    if (flats_.on_rim[v.index()] != 0) return mesh_.for_each_neighbour(v, visit);
-    mesh_.for_each_out_around(mesh_.some_out(v), [&](HalfedgeId out) { visit(mesh_.target(out), out); });
-  }
-
   // Up to the vertices that drain, which go to `front_`: other parts of the plateau may meet them too.
   void walk(VertexId start) {
     const double height = mesh_.height(start);
@@ -75,7 +68,7 @@ class Resolver {
     flats_.rank[start.index()] = kWaiting;
     front_.clear();
     for (std::size_t next = 0; next < plateau_.size(); ++next) {
-      for_each_neighbour(plateau_[next], [&](VertexId w, HalfedgeId) {
+      mesh_.for_each_neighbour(plateau_[next], [&](VertexId w, HalfedgeId) {
         if (mesh_.height(w) != height) return;
         if (drained_[w.index()] != 0) {
           front_.push_back(w);
@@ -96,7 +89,7 @@ class Resolver {
       flats_.rank[v.index()] = 0;
       flats_.pit[v.index()] = static_cast<std::uint32_t>(flats_.pits.size());
       if (plateau_.size() == 1) continue;
-      for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
+      mesh_.for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
         lake |= mesh_.height(w) == mesh_.height(v) && has(mesh_.kind(edge), EdgeKind::Lake);
       });
     }
@@ -115,7 +108,7 @@ class Resolver {
     for (std::uint32_t rank = 1; !front_.empty(); ++rank) {
       reached_.clear();
       for (const VertexId v : front_) {
-        for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
+        mesh_.for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
           if (mesh_.height(w) != height) return;
           std::uint32_t& known = flats_.rank[w.index()];
           const VertexStep step{.edge = edge, .kind = VertexStep::Kind::Edge};

@@ -9,6 +9,8 @@
 #include "delaunay/spatial_order.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
@@ -43,14 +45,41 @@ FlowMesh::FlowMesh(const Tin& tin, const Progress& progress)
       heights_(tin.heights()),
       triangles_(tin.triangles()),
       twins_(tin.arrays().twins) {
-  if (!is_scattered(tin)) return;
-  number_vertices(progress);
-  number_triangles(progress);
-  link_triangles(progress);
-  points_ = moved_points_;
-  heights_ = moved_heights_;
-  triangles_ = moved_triangles_;
-  twins_ = moved_twins_;
+  if (is_scattered(tin)) {
+    number_vertices(progress);
+    number_triangles(progress);
+    link_triangles(progress);
+    points_ = moved_points_;
+    heights_ = moved_heights_;
+    triangles_ = moved_triangles_;
+    twins_ = moved_twins_;
+  }
+  find_first_out(progress);
+}
+
+void FlowMesh::find_first_out(const Progress& progress) {
+  first_out_.assign(vertex_count(), HalfedgeId{});
+  std::mutex mutex;
+  for_each_range(vertex_count(), progress, [&](std::size_t begin, std::size_t end) {
+    const VertexId low{begin}, limit{end};
+    std::vector<HalfedgeId> more;
+    for (std::size_t i = 0; i < halfedge_count(); ++i) {
+      const HalfedgeId h{i};
+      const VertexId v = triangles_[i / 3][i % 3];
+      if (v < low || v >= limit) continue;
+      HalfedgeId& first = first_out_[v.index()];
+      if (!on_rim(h)) {
+        if (!first.valid()) first = h;
+      } else if (first.valid() && on_rim(first)) {
+        more.push_back(h);
+      } else {
+        first = h;
+      }
+    }
+    const std::scoped_lock lock(mutex);
+    more_out_.insert(more_out_.end(), more.begin(), more.end());
+  });
+  std::ranges::sort(more_out_, {}, [this](HalfedgeId h) { return std::pair(origin(h), h); });
 }
 
 void FlowMesh::number_vertices(const Progress& progress) {
@@ -84,8 +113,7 @@ void FlowMesh::number_triangles(const Progress& progress) {
       smallest[t] = std::min({own(c[0]), own(c[1]), own(c[2])}).value();
     }
   });
-  std::vector<std::uint32_t>& next = end_of_triangles_;  // first where they begin
-  next.assign(tin_.vertex_count() + 1, 0);
+  std::vector<std::uint32_t> next(tin_.vertex_count() + 1, 0);
   const auto for_each_in_ranges = [&](const auto& body) {
     for_each_range(tin_.vertex_count(), progress, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = 0; t < count; ++t) {

@@ -7,8 +7,10 @@
 #include <thalweg/base/progress.hpp>
 #include <thalweg/mesh/tin.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace thalweg {
 
@@ -51,10 +53,15 @@ class FlowMesh {
   /// True if the numbers are the TIN's.
   [[nodiscard]] bool same() const { return given_vertex_.empty(); }
 
-  /// Calls `visit(halfedge)` for each halfedge that starts at v, in the order of their numbers in the TIN.
+  [[nodiscard]] bool in_a_triangle(VertexId v) const { return first_out_[v.index()].valid(); }
+  /// Calls `visit(halfedge)` for each halfedge that starts at v, in no promised order.
   template <class Visit>
   void for_each_out(VertexId v, const Visit& visit) const {
-    for (const HalfedgeId h : tin_.outgoing(given(v))) visit(own(h));
+    if (!in_a_triangle(v)) return;
+    turn_from(first_out_[v.index()], visit);
+    if (more_out_.empty()) return;
+    const auto origin_of = [this](HalfedgeId h) { return origin(h); };
+    for (const HalfedgeId h : std::ranges::equal_range(more_out_, v, {}, origin_of)) turn_from(h, visit);
   }
   /// Calls `visit(neighbour, halfedge of the edge)` for each neighbour; those on interior edges once.
   template <class Visit>
@@ -65,31 +72,21 @@ class FlowMesh {
       if (on_rim(in)) visit(origin(in), in);
     });
   }
-  [[nodiscard]] bool in_a_triangle(VertexId v) const { return !tin_.outgoing(given(v)).empty(); }
-  /// The same where `start` does, in some order; it costs less. Pre: that vertex is not on the rim.
-  template <class Visit>
-  void for_each_out_around(HalfedgeId start, const Visit& visit) const {
-    if (same()) return for_each_out(origin(start), visit);
-    HalfedgeId h = start;
-    do {
-      visit(h);
-      h = twin(Tin::previous(h));
-    } while (h != start);
-  }
-  /// A halfedge that starts at v. Pre: v is in a triangle.
-  [[nodiscard]] HalfedgeId some_out(VertexId v) const {
-    if (!same() && end_of_triangles_[v.index()] > (v.index() == 0 ? 0 : end_of_triangles_[v.index() - 1])) {
-      const TriangleId t{end_of_triangles_[v.index()] - std::size_t{1}};
-      const Triangle& c = triangle(t);
-      return Tin::halfedge(t, c[0] == v ? 0 : c[1] == v ? 1 : 2);
-    }
-    return own(tin_.outgoing(given(v)).front());
-  }
 
  private:
   void number_vertices(const Progress& progress);
   void number_triangles(const Progress& progress);
   void link_triangles(const Progress& progress);
+  void find_first_out(const Progress& progress);
+  /// Counter-clockwise through one fan. Pre: `start` is on the rim, or no halfedge of its vertex is.
+  template <class Visit>
+  void turn_from(HalfedgeId start, const Visit& visit) const {
+    HalfedgeId h = start;
+    do {
+      visit(h);
+      h = twin(Tin::previous(h));
+    } while (h.valid() && h != start);
+  }
 
   const Tin& tin_;
   std::span<const Point2> points_;
@@ -98,7 +95,8 @@ class FlowMesh {
   std::span<const HalfedgeId> twins_;
   RawVector<VertexId> given_vertex_, own_vertex_;
   RawVector<TriangleId> given_triangle_, own_triangle_;
-  std::vector<std::uint32_t> end_of_triangles_;  // by vertex: where those end of which it is the smallest
+  RawVector<HalfedgeId> first_out_;   // by vertex: a halfedge that starts there, on the rim if one is
+  std::vector<HalfedgeId> more_out_;  // by their origins: the others on the rim, where several fans meet
   RawVector<Point2> moved_points_;
   RawVector<double> moved_heights_;
   RawVector<Triangle> moved_triangles_;
