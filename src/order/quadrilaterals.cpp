@@ -150,11 +150,10 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::judge_others(const Half& half)
     if (refuses(tin_.target(spoke))) return worst;
     outer = tin_.twin(spoke);
   }
-  const auto fans =
-      std::ranges::equal_range(rim_, half.inner, {}, [&](HalfedgeId h) { return tin_.origin(h); });
-  for (const HalfedgeId first : fans) {
-    if (refuses(tin_.target(first))) return worst;
-    HalfedgeId spoke = first;
+  auto first = std::ranges::lower_bound(rim_, half.inner, {}, [&](HalfedgeId h) { return tin_.origin(h); });
+  for (; first != rim_.end() && tin_.origin(*first) == half.inner; ++first) {
+    if (refuses(tin_.target(*first))) return worst;
+    HalfedgeId spoke = *first;
     do {
       if (refuses(tin_.apex(spoke))) return worst;
       spoke = tin_.twin(Tin::previous(spoke));

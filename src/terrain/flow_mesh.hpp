@@ -59,9 +59,8 @@ class FlowMesh {
   void for_each_out(VertexId v, const Visit& visit) const {
     if (!in_a_triangle(v)) return;
     turn_from(first_out_[v.index()], visit);
-    if (more_out_.empty()) return;
-    const auto origin_of = [this](HalfedgeId h) { return origin(h); };
-    for (const HalfedgeId h : std::ranges::equal_range(more_out_, v, {}, origin_of)) turn_from(h, visit);
+    auto more = std::ranges::lower_bound(more_out_, v, {}, [this](HalfedgeId h) { return origin(h); });
+    for (; more != more_out_.end() && origin(*more) == v; ++more) turn_from(*more, visit);
   }
   /// Calls `visit(neighbour, halfedge of the edge)` for each neighbour; those on interior edges once.
   template <class Visit>
