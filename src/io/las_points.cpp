@@ -160,12 +160,13 @@ class LasPoints : public SourceReader {
   }
 
   void read_records(ReadContext& run, PointCollector& points, Counts& counts) const {
-    constexpr std::uint64_t kBlock = 1U << 15U;
+    constexpr std::uint64_t kBlock = 1U << 20U;  // bytes
+    const std::uint64_t at_once = std::max<std::uint64_t>(kBlock / record_, 1);
     VSIFSeekL(file_.get(), start_, SEEK_SET);
-    for (std::uint64_t first = 0; first < count_; first += kBlock) {
+    for (std::uint64_t first = 0; first < count_; first += at_once) {
       run.advance(static_cast<double>(first) / static_cast<double>(count_));
-      const std::uint64_t wanted = std::min(kBlock, count_ - first);
-      const Bytes block = take(static_cast<std::size_t>(wanted * record_));
+      const std::uint64_t wanted = std::min(at_once, count_ - first);
+      const Bytes block = take(wanted * record_);
       if (block.size() < wanted * record_) {
         fail(ErrorCode::BadFormat, "ends after point " + std::to_string(first + block.size() / record_) +
                                        " of " + std::to_string(count_) + "; copy it again");
@@ -180,9 +181,10 @@ class LasPoints : public SourceReader {
     throw Error(code, name() + ": " + what);
   }
 
-  [[nodiscard]] Bytes take(std::size_t size) const {
-    std::vector<unsigned char> data(size);
-    data.resize(VSIFReadL(data.data(), 1, size, file_.get()));
+  // The next bytes of the file; fewer at its end.
+  [[nodiscard]] Bytes take(std::uint64_t size) const {
+    std::vector<unsigned char> data(static_cast<std::size_t>(std::min(size, file_size_)));
+    data.resize(VSIFReadL(data.data(), 1, data.size(), file_.get()));
     return Bytes(std::move(data));
   }
 

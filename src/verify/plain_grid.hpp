@@ -74,7 +74,7 @@ class PlainGrid {
       // The part of the segment over this column, one cell more on all sides.
       const double from = std::max(first.x, box_.x_min + (c - 1) * size_);
       const double to = std::min(second.x, box_.x_min + (c + 2) * size_);
-      const bool steep = first.x == second.x;
+      const bool steep = first.x == second.x || !std::isfinite(slope);
       const double y1 = steep ? first.y : first.y + (from - first.x) * slope;
       const double y2 = steep ? second.y : first.y + (to - first.x) * slope;
       const int low = std::max(row(std::min(y1, y2)) - 1, row(std::min(a.y, b.y)));
