@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "mesh/sort_triangles.hpp"
+#include "mesh/used_vertices.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/tin.hpp>
@@ -197,15 +198,18 @@ HalfedgeId Tin::find_halfedge(VertexId a, VertexId b) const {
   return at != fan.end() && target(*at) == b ? *at : HalfedgeId{};
 }
 
-std::vector<std::uint8_t> Tin::vertices_in_triangles() const {
-  std::vector<std::uint8_t> used(vertex_count(), 0);
-  for_each_block(triangle_count(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (const VertexId v : triangles_[t])
-        std::atomic_ref(used[v.index()]).store(1, std::memory_order_relaxed);
+std::vector<std::uint8_t> used_vertices(std::span<const Triangle> triangles, std::size_t vertex_count) {
+  std::vector<std::uint8_t> used(vertex_count, 0);
+  for_each_block(triangles.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
+    for (const Triangle& triangle : triangles.subspan(begin, end - begin)) {
+      for (const VertexId v : triangle) std::atomic_ref(used[v.index()]).store(1, std::memory_order_relaxed);
     }
   });
   return used;
+}
+
+std::vector<std::uint8_t> Tin::vertices_in_triangles() const {
+  return used_vertices(triangles_, vertex_count());
 }
 
 std::vector<bool> Tin::rim_vertices() const {

@@ -14,6 +14,7 @@
 //    sorted.
 #include "base/parallel.hpp"
 #include "mesh/rim_sweep.hpp"
+#include "mesh/used_vertices.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/mesh/validate.hpp>
@@ -21,7 +22,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -338,13 +338,7 @@ class Inspection {
   }
 
   void list_isolated() {
-    std::vector<std::uint8_t> used(tin_.points.size(), 0);
-    for_each_block(tin_.triangles.size(), kBlock, Progress(), [&](std::size_t begin, std::size_t end) {
-      for (const Triangle& triangle : tin_.triangles.subspan(begin, end - begin)) {
-        for (const VertexId v : triangle)
-          std::atomic_ref(used[v.index()]).store(1, std::memory_order_relaxed);
-      }
-    });
+    const std::vector<std::uint8_t> used = used_vertices(tin_.triangles, tin_.points.size());
     for (std::size_t v = 0; v < used.size(); ++v) {
       if (used[v] == 0) isolated_.push_back(VertexId{v});
     }

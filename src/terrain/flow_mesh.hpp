@@ -36,7 +36,6 @@ class FlowMesh {
   [[nodiscard]] VertexId apex(HalfedgeId h) const { return origin(Tin::previous(h)); }
   [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h.index()]; }
   [[nodiscard]] bool on_rim(HalfedgeId h) const { return !twin(h).valid(); }
-  [[nodiscard]] bool represents_edge(HalfedgeId h) const { return !twin(h).valid() || h < twin(h); }
   [[nodiscard]] EdgeKind kind(HalfedgeId h) const { return tin_.kind(given(h)); }
 
   /// The TIN's number of what has a number here.
