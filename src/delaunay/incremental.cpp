@@ -108,7 +108,9 @@ std::uint32_t Insertion::locate(Point2 p) const {
     if (++exit == 3) return last_;
   }
   std::uint32_t side = first.neighbour[exit];
-  while (true) {
+  // Where both ways lead on, they are taken in turns: who keeps to one goes around the whole fan of a vertex
+  // that has very many neighbours, as points near one line have.
+  for (bool turn = false;; turn = !turn) {
     const Cell& here = cells_[cell_of(side)];
     const std::uint32_t corner = corner_of(side);
     if (here.vertex[corner] == infinity) return cell_of(side);
@@ -116,7 +118,7 @@ std::uint32_t Insertion::locate(Point2 p) const {
     const bool past_one = right_of(at_[here.vertex[before(corner)]], apex, p);
     const bool past_other = right_of(apex, at_[here.vertex[after(corner)]], p);
     if (!past_one && !past_other) return cell_of(side);
-    side = here.neighbour[past_one ? after(corner) : before(corner)];
+    side = here.neighbour[past_one && (turn || !past_other) ? after(corner) : before(corner)];
   }
 }
 
