@@ -1,8 +1,8 @@
 // Delaunay triangulation in strips, one a thread, and the seams between them.
 //
 // 1. Vertices fall into strips of about equal size by their x. Each strip is triangulated for itself
-//    (incremental.cpp), in rounds: each round holds three quarters of what the earlier ones left out of the
-//    rest, in order of ids (Amenta, Choi, Rote, Incremental constructions con BRIO, 2003).
+//    (incremental.cpp), in rounds: the last one holds 15 of 16 vertices, the one before 15 of 16 of the rest,
+//    and so on, each in order of ids (Amenta, Choi, Rote, Incremental constructions con BRIO, 2003).
 // 2. A cell of a strip is safe if the closed box of its disc (of a ghost: the closed half-plane) meets no
 //    other strip's box of vertices, with room for rounding: then it belongs to the whole triangulation.
 // 3. Let S be the vertices of unsafe cells. A cell of the whole triangulation that is no safe one has all its

@@ -189,8 +189,8 @@ std::size_t insertion_round(std::uint32_t index) {
   value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
   value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
   value ^= value >> 31U;
-  const auto quarters = static_cast<std::size_t>(std::countr_zero(value | 1ULL << 62U)) / 2;
-  return kInsertionRounds - 1 - std::min(quarters, kInsertionRounds - 1);
+  const auto earlier = static_cast<std::size_t>(std::countr_zero(value | 1ULL << 62U)) / 4;
+  return kInsertionRounds - 1 - std::min(earlier, kInsertionRounds - 1);
 }
 
 std::vector<std::uint32_t> insertion_order(std::span<const Point2> points, const Progress& progress) {

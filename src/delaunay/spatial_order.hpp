@@ -20,10 +20,10 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const P
 /// for memory, at half the cost.
 std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, const Progress& progress);
 
-/// Round of the vertex with that index along the curve: the last one holds three quarters of all vertices,
-/// the one before three quarters of the rest, and so on. Incremental triangulation round by round takes few
-/// steps to locate a point and, expected, few changes, whatever the points' pattern.
-inline constexpr std::size_t kInsertionRounds = 12;
+/// Round of the vertex with that index along the curve: the last one holds 15 of 16 vertices, the one before
+/// 15 of 16 of the rest, and so on. Incremental triangulation round by round takes few steps to locate a
+/// point and, expected, few changes, whatever the points' pattern.
+inline constexpr std::size_t kInsertionRounds = 8;
 std::size_t insertion_round(std::uint32_t index);
 
 /// The indices below `count` for which `belongs`, round by round, within a round ascending.
