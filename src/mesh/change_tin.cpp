@@ -118,7 +118,7 @@ RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress
   result.tin = {std::move(points), std::move(heights), link_triangles(given, sorted, progress)};
   result.place.resize(sorted.moved.size());
   for_each_block(result.place.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) result.place[t] = sorted.moved[t].triangle();
+    for (std::size_t t = begin; t < end; ++t) result.place[t] = TriangleId{sorted.moved[t].index()};
   });
   return result;
 }

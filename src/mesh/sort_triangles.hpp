@@ -41,41 +41,46 @@ SortedCorners sort_triangles(const Source& source, std::span<const VertexId> num
     const VertexId v = source.corner(t, i);
     return number.empty() ? v : number[v.index()];
   };
-  std::vector<VertexId> sample;
-  for (std::size_t t = 0; t < source.size(); t += source.size() / kTrianglesSampled + 1) {
-    if (source.exists(t)) sample.push_back(std::min({renamed(t, 0), renamed(t, 1), renamed(t, 2)}));
-  }
+  SortedCorners sorted{.triangles = {}, .moved = RawVector<TurnedTriangle>(source.size())};
+  // Until triangles have their places, `moved` says of each its smallest id and the corner that has it.
+  for_each_block(source.size(), kVerticesAtOnce, progress, [&](std::size_t begin, std::size_t limit) {
+    for (std::size_t t = begin; t < limit; ++t) {
+      if (!source.exists(t)) {
+        sorted.moved[t] = {};
+        continue;
+      }
+      const VertexId a = renamed(t, 0), b = renamed(t, 1), c = renamed(t, 2);
+      const VertexId smaller = std::min(a, b);
+      sorted.moved[t] = {std::min(smaller, c).index(), c < smaller ? 2U : b < a ? 1U : 0U};
+    }
+  });
   // Each thread fills the buckets of a range of ids, so no two write to the same place.
-  const std::vector<std::size_t> limits = even_limits(std::move(sample), vertex_count);
+  const std::vector<std::size_t> limits = even_limits(sorted.moved, vertex_count);
   const auto in_ranges = [&](const auto& body) {
     for_each_block(limits.size() - 1, 1, progress, [&](std::size_t range, std::size_t) {
-      const VertexId low{limits[range]}, high{limits[range + 1]};
-      body([&](const auto& visit) {
+      body([&, low = limits[range], high = limits[range + 1]](const auto& visit) {
         for (std::size_t t = 0; t < source.size(); ++t) {
-          if (!source.exists(t)) continue;
-          const VertexId a = renamed(t, 0), b = renamed(t, 1), c = renamed(t, 2);
-          const VertexId first = std::min({a, b, c});
-          if (first >= low && first < high) visit(t, a, b, c);
+          const std::size_t smallest = sorted.moved[t].index();
+          if (smallest >= low && smallest < high) visit(t, VertexId{smallest}, sorted.moved[t].corner());
         }
       });
     });
   };
   std::vector<std::uint32_t> end(vertex_count + 1, 0);
   in_ranges([&](const auto& for_each_triangle) {
-    for_each_triangle([&](std::size_t, VertexId a, VertexId b, VertexId c) {
-      ++end[std::min({a, b, c}).index() + 1];
-    });
+    for_each_triangle([&](std::size_t, VertexId smallest, std::uint32_t) { ++end[smallest.index() + 1]; });
   });
   std::partial_sum(end.begin(), end.end(), end.begin());
-  SortedCorners sorted{.triangles = RawVector<Triangle>(end.back()),
-                       .moved = RawVector<TurnedTriangle>(source.size())};
+  sorted.triangles.resize(end.back());
   const TriangleBuckets buckets{sorted.triangles, end};
   in_ranges([&](const auto& for_each_triangle) {
     BucketFiller filler(buckets);
-    for_each_triangle([&](std::size_t t, VertexId a, VertexId b, VertexId c) { filler.add(t, a, b, c); });
+    for_each_triangle([&](std::size_t t, VertexId smallest, std::uint32_t corner) {
+      const std::uint32_t next = corner == 2 ? 0 : corner + 1, last = corner == 0 ? 2 : corner - 1;
+      filler.add({t, corner}, {smallest, renamed(t, next), renamed(t, last)});
+    });
     filler.flush();
   });
-  if (end.back() < source.size()) std::ranges::fill(sorted.moved, TurnedTriangle{});
   for_each_block(vertex_count, kVerticesAtOnce, progress, [&](std::size_t first, std::size_t limit) {
     settle_buckets(buckets, first, limit, sorted.moved);
   });

@@ -13,6 +13,8 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kSmallBucket = 16;
+// About how many triangles tell the limits of ranges.
+constexpr std::size_t kTrianglesSampled = 1024;
 
 // By the other corners; of two triangles on the same side of an edge by where they come from.
 bool comes_before(const Triangle& a, const Triangle& b) {
@@ -38,11 +40,15 @@ void check_triangle_count(std::size_t count) {
                                         std::to_string(count) + "; split the area");
 }
 
-std::vector<std::size_t> even_limits(std::vector<VertexId> sample, std::size_t vertex_count) {
+std::vector<std::size_t> even_limits(std::span<const TurnedTriangle> smallest, std::size_t vertex_count) {
+  std::vector<std::size_t> sample;
+  for (std::size_t t = 0; t < smallest.size(); t += smallest.size() / kTrianglesSampled + 1) {
+    if (smallest[t].exists()) sample.push_back(smallest[t].index());
+  }
   std::sort(sample.begin(), sample.end());
   const std::size_t ranges = sample.empty() ? 1 : range_count(vertex_count);
   std::vector<std::size_t> limits{0};
-  for (std::size_t i = 1; i < ranges; ++i) limits.push_back(sample[i * sample.size() / ranges].index());
+  for (std::size_t i = 1; i < ranges; ++i) limits.push_back(sample[i * sample.size() / ranges]);
   limits.push_back(vertex_count);
   return limits;
 }
@@ -67,7 +73,8 @@ void settle_buckets(TriangleBuckets buckets, std::size_t begin, std::size_t end,
     for (std::size_t i = first; i < buckets.end[v]; ++i) {
       if (i + kAhead < limit) prefetch_to_write(&moved[buckets.triangles[i + kAhead][0].index() / 3]);
       const std::size_t taken = buckets.triangles[i][0].index();
-      const std::size_t old = taken / 3, corner = taken - 3 * old;
+      const std::size_t old = taken / 3;
+      const auto corner = static_cast<std::uint32_t>(taken - 3 * old);
       buckets.triangles[i][0] = VertexId{v};
       moved[old] = {i, corner == 0 ? 0 : 3 - corner};
     }

@@ -15,15 +15,9 @@ namespace thalweg {
 
 // Vertices, or triangles, that a thread takes at once.
 inline constexpr std::size_t kVerticesAtOnce = 8192;
-// About how many triangles tell the limits of ranges.
-inline constexpr std::size_t kTrianglesSampled = 1024;
 
 /// Throws: Error{SizeLimit} from 2^30 triangles on, of which TurnedTriangle could not tell.
 void check_triangle_count(std::size_t count);
-
-/// Limits of ranges of ids that are the smallest one of about as many triangles each: if ids are strewn, low
-/// ones are so often. `sample`: the smallest ids of some triangles.
-std::vector<std::size_t> even_limits(std::vector<VertexId> sample, std::size_t vertex_count);
 
 /// A side of a triangle of a source.
 struct SourceSide {
@@ -32,23 +26,30 @@ struct SourceSide {
 };
 
 /// What a triangle of a source has become: which one, and which of its corners the first corner is now.
+/// Until that is known: its smallest id, and the corner that has it.
 class TurnedTriangle {
  public:
   TurnedTriangle() = default;
-  TurnedTriangle(std::size_t triangle, std::size_t first)
-      : value_(static_cast<std::uint32_t>(4 * triangle + first)) {}
+  TurnedTriangle(std::size_t index, std::uint32_t corner)
+      : value_(static_cast<std::uint32_t>(4 * index + corner)) {}
   [[nodiscard]] bool exists() const { return value_ != kNone; }
-  [[nodiscard]] TriangleId triangle() const { return TriangleId{value_ >> 2U}; }
+  /// Larger than all ids if it does not exist.
+  [[nodiscard]] std::size_t index() const { return value_ >> 2U; }
+  [[nodiscard]] std::uint32_t corner() const { return value_ & 3U; }
   /// What its halfedge of corner i is now.
   [[nodiscard]] HalfedgeId halfedge(std::uint32_t i) const {
-    constexpr std::uint32_t kTurned = 0b01'00'10'01'00U;  // (first + i) % 3, two bits each
-    return HalfedgeId{3 * std::size_t{value_ >> 2U} + (kTurned >> (2 * ((value_ & 3U) + i)) & 3U)};
+    constexpr std::uint32_t kTurned = 0b01'00'10'01'00U;  // (corner + i) % 3, two bits each
+    return HalfedgeId{3 * index() + (kTurned >> (2 * (corner() + i)) & 3U)};
   }
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::uint32_t value_ = kNone;
 };
+
+/// Limits of ranges of ids that are the smallest one of about as many triangles each: if ids are strewn, low
+/// ones are so often. `smallest`: of each triangle.
+std::vector<std::size_t> even_limits(std::span<const TurnedTriangle> smallest, std::size_t vertex_count);
 
 /// Buckets of triangles by their smallest ids, while they are filled and sorted.
 struct TriangleBuckets {
@@ -61,18 +62,13 @@ struct TriangleBuckets {
 class BucketFiller {
  public:
   explicit BucketFiller(TriangleBuckets buckets) : buckets_(buckets) {}
-  /// Triangle t of a source, with corners a, b, c, counter-clockwise. The bucket, which `end` says to end
-  /// where it starts, grows.
-  void add(std::size_t t, VertexId a, VertexId b, VertexId c) {
-    const std::size_t corner = b < a ? (c < b ? 2 : 1) : (c < a ? 2 : 0);
-    const VertexId first = corner == 0 ? a : corner == 1 ? b : c;
-    first_[count_] = first;
-    // In place of the smallest id, which the bucket tells: where the triangle is in the source, and its
-    // corner.
-    waiting_[count_][0] = VertexId{3 * t + corner};
-    waiting_[count_][1] = corner == 0 ? b : corner == 1 ? c : a;
-    waiting_[count_][2] = corner == 0 ? c : corner == 1 ? a : b;
-    prefetch_to_write(&buckets_.end[first.index()]);
+  /// A triangle from its smallest id on, which is that of the corner of a triangle of a source. The bucket,
+  /// which `end` says to end where it starts, grows.
+  void add(SourceSide corner, const Triangle& triangle) {
+    first_[count_] = triangle[0];
+    // In place of the smallest id, which the bucket tells: where the triangle is in the source.
+    waiting_[count_] = {VertexId{3 * corner.triangle + corner.side}, triangle[1], triangle[2]};
+    prefetch_to_write(&buckets_.end[triangle[0].index()]);
     if (++count_ == kMost) flush();
   }
   /// To be called last.
