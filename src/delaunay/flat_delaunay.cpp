@@ -140,9 +140,9 @@ std::vector<std::uint32_t> Strips::mark_unsafe() {
   std::vector<std::vector<std::uint32_t>> found(strips_.size());
   tbb::parallel_for(std::size_t{0}, strips_.size(), [&](std::size_t i) {
     for (std::uint32_t c = strips_[i].first_cell; c < strips_[i].end_cell(); ++c) {
-      const bool unsafe = !safe(cells_[c], i);
-      cells_[c].mark = unsafe ? 1 : 0;
-      if (unsafe) found[i].push_back(c);
+      if (safe(cells_[c], i)) continue;
+      cells_[c].mark = 1;
+      found[i].push_back(c);
     }
   });
   std::vector<std::uint32_t> all;
