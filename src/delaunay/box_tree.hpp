@@ -69,11 +69,15 @@ class BoxTree {
   [[nodiscard]] const Box2& box(std::size_t i) const { return levels_.front()[i]; }
   [[nodiscard]] std::uint32_t item(std::size_t i) const { return items_[i]; }
 
+  /// False only if nothing in the tree meets the query; asks no box.
+  [[nodiscard]] bool may_meet(const Box2& query) const {
+    return !levels_.empty() && squares_.may_meet(query);
+  }
   /// Calls `visitor(item)` for each box that meets the query (closed), in the tree's order; over segments it
   /// may leave out those that do not meet the query themselves.
   template <class Visitor>
   void visit(const Box2& query, const Visitor& visitor) const {
-    if (levels_.empty() || !squares_.may_meet(query)) return;
+    if (!may_meet(query)) return;
     visit_range(levels_.size() - 1, 0, levels_.back().size(), query, visitor);
   }
 

@@ -38,6 +38,7 @@
 
 #include "base/release.hpp"
 #include "box_tree.hpp"
+#include "spatial_order.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
@@ -75,6 +76,11 @@ struct Stop {
 };
 
 using LinkPair = std::array<std::uint32_t, 2>;
+
+/// Holds the cell.
+Box2 box_of(const Cell& cell) {
+  return box_around(cell.centre, std::max(cell.half_x, cell.half_y));
+}
 
 // Blocks' findings, in the order of blocks.
 template <class Found>
@@ -197,17 +203,38 @@ class Noder {
     return crossings;
   }
 
+  // Vertices from `first` on that may lie near a link, along a curve: what the search about one of them reads
+  // is at hand for the next.
+  [[nodiscard]] std::vector<std::uint32_t> find_near(const BoxTree& tree, std::size_t first,
+                                                     double grid) const {
+    const std::size_t count = xy_.size() - first;
+    std::vector<std::vector<std::uint32_t>> found((count + kBlock - 1) / kBlock);
+    for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = first + begin; v < first + end; ++v) {
+        if (tree.may_meet(box_of({xy_[v], grid}))) {
+          found[begin / kBlock].push_back(static_cast<std::uint32_t>(v));
+        }
+      }
+    });
+    const std::vector<std::uint32_t> near = gather(found);
+    std::vector<Point2> positions(near.size());
+    for (std::size_t i = 0; i < near.size(); ++i) positions[i] = xy_[near[i]];
+    std::vector<std::uint32_t> along = coarse_hilbert_order(positions, progress_);
+    for (std::uint32_t& i : along) i = near[i];
+    return along;
+  }
+
   // The stops at vertices from `first` on, in order of links.
   [[nodiscard]] std::vector<Stop> find_stops(const BoxTree& tree, std::size_t first, double grid) const {
-    const std::size_t count = xy_.size() - first;
-    std::vector<std::vector<Stop>> found((count + kBlock - 1) / kBlock);
+    const std::vector<std::uint32_t> near = find_near(tree, first, grid);
+    std::vector<std::vector<Stop>> found((near.size() + kBlock - 1) / kBlock);
     Tally tally(kMostStops, "run along each other or through vertices");
-    for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    for_each_block(near.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t before = found[begin / kBlock].size();
-        const auto vertex = static_cast<std::uint32_t>(first + i);
+        const std::uint32_t vertex = near[i];
         const Cell cell(xy_[vertex], grid);
-        tree.visit(box_around(cell.centre, std::max(cell.half_x, cell.half_y)), [&](std::uint32_t link) {
+        tree.visit(box_of(cell), [&](std::uint32_t link) {
           if (is_end(link, vertex)) return;
           const bool on_link = on_segment(links_[link].a, links_[link].b, cell.centre);
           if (on_link || meets_cell(links_[link], cell)) {
