@@ -14,6 +14,7 @@
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "drawing.hpp"
+#include "engine.hpp"
 #include "heights.hpp"
 #include "lakes.hpp"
 #include "merge.hpp"
@@ -276,12 +277,15 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   plan.now_of.resize(plan.xy.size());
   for (std::size_t v = 0; v < plan.now_of.size(); ++v) plan.now_of[v] = static_cast<std::uint32_t>(v);
   if (ground.mode == GroundMode::Polygon) drop_far_points(survey, drawing, plan);
-  if (options.numbering == Numbering::AlongCurve) sort_along_curve(plan, progress);
+  const bool along_curve = options.numbering == Numbering::AlongCurve;
+  if (along_curve) sort_along_curve(plan, progress);
   for (ConstraintEdge& edge : edges) {
     edge.a = VertexId{plan.now_of[edge.a.index()]};
     edge.b = VertexId{plan.now_of[edge.b.index()]};
   }
-  ground.tin = triangulate(std::move(plan.xy), std::move(plan.z), edges, progress, options.engine);
+  ground.tin = detail::triangulate(std::move(plan.xy), std::move(plan.z), edges,
+                                   along_curve ? detail::PointOrder::AlongCurve : detail::PointOrder::Any,
+                                   progress, options.engine);
   if (has_lakes(survey)) level(survey, drawing, plan.now_of, heights, ground, progress);
   if (ground.mode == GroundMode::Polygon) {
     plan.xy.assign(ground.tin.points().begin(), ground.tin.points().end());
@@ -289,7 +293,7 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
     ground.tin = keep_region(survey, drawing, ground.tin, plan);
   }
   ground.origins = std::move(plan.origins);
-  if (options.numbering == Numbering::AlongCurve) ground.number = numbers_in_order(plan.now_of);
+  if (along_curve) ground.number = numbers_in_order(plan.now_of);
   ground.point_vertices.reserve(drawing.vertices.of_point.size());
   for (const std::uint32_t v : drawing.vertices.of_point) {
     const std::uint32_t now = plan.now_of[v];

@@ -67,13 +67,18 @@ std::vector<DrawnEdge> renumbered(std::span<const DrawnEdge> edges, std::span<co
 }  // namespace
 
 Triangulated triangulate_flat(std::span<const Point2> points, std::span<const DrawnEdge> edges,
-                              Progress& progress) {
+                              PointOrder points_are, Progress& progress) {
   Triangulated result;
-  std::vector<std::uint32_t> order = hilbert_order(points, progress);
+  std::vector<std::uint32_t> order;  // empty if it is that of the points
+  if (points_are != PointOrder::AlongCurve) order = hilbert_order(points, progress);
+  if (std::is_sorted(order.begin(), order.end())) release(order);
+  const auto given = [&order](std::uint32_t v) { return order.empty() ? v : order[v]; };
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   RawVector<Point2> positions(points.size() + 1);
-  for_each_block(order.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) positions[v] = points[order[v]];
+  for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      positions[v] = points[given(static_cast<std::uint32_t>(v))];
+    }
   });
   positions.back() = {kNaN, kNaN};
   const Positions at{positions};
@@ -82,26 +87,22 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Dr
   progress.advance(0.9);
   std::vector<DrawnEdge> drawn;
   if (!edges.empty() && !cells.empty()) {
-    drawn = renumbered(edges, order);
+    drawn = order.empty() ? std::vector(edges.begin(), edges.end()) : renumbered(edges, order);
     if (const auto fault = insert_edges(at, cells, drawn, progress)) {
-      result.crossing = std::minmax(order[fault->edge.first], order[fault->edge.second]);
+      result.crossing = std::minmax(given(fault->edge.first), given(fault->edge.second));
       return result;
     }
   }
   release(positions);
   std::vector<VertexId> number;
-  if (!std::is_sorted(order.begin(), order.end())) {
-    number.reserve(order.size());
-    for (const std::uint32_t v : order) number.emplace_back(v);
-  }
+  number.reserve(order.size());
+  for (const std::uint32_t v : order) number.emplace_back(v);
   release(order);
   const FiniteCells finite{cells, infinity, drawn};
   SortedCorners sorted = sort_triangles(finite, number, points.size(), progress);
   result.linked = link_triangles(finite, sorted, progress);
   return result;
 }
-
-}  // namespace detail
 
 namespace {
 
@@ -110,15 +111,15 @@ std::string describe(Point2 p) {
 }
 
 /// Each pair of vertices once, with all its kinds; sorted.
-std::vector<detail::DrawnEdge> drawn_edges(std::span<const ConstraintEdge> constraints) {
-  std::vector<detail::DrawnEdge> all;
+std::vector<DrawnEdge> drawn_edges(std::span<const ConstraintEdge> constraints) {
+  std::vector<DrawnEdge> all;
   all.reserve(constraints.size());
   for (const ConstraintEdge& edge : constraints) {
     all.push_back({std::minmax(edge.a.value(), edge.b.value()), edge.kind});
   }
-  std::ranges::sort(all, {}, &detail::DrawnEdge::ends);
+  std::ranges::sort(all, {}, &DrawnEdge::ends);
   std::size_t count = 0;
-  for (const detail::DrawnEdge& edge : all) {
+  for (const DrawnEdge& edge : all) {
     if (count > 0 && all[count - 1].ends == edge.ends) {
       all[count - 1].kind = all[count - 1].kind | edge.kind;
     } else {
@@ -131,21 +132,18 @@ std::vector<detail::DrawnEdge> drawn_edges(std::span<const ConstraintEdge> const
 
 }  // namespace
 
-std::string_view engine_name(TriangulationEngine engine) {
-  return engine == TriangulationEngine::Flat ? "flat" : "cgal";
-}
-
 Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
-                std::span<const ConstraintEdge> constraints, Progress& progress, TriangulationEngine engine) {
+                std::span<const ConstraintEdge> constraints, PointOrder points_are, Progress& progress,
+                TriangulationEngine engine) {
   if (points.size() < 3) {
     throw Error(ErrorCode::TooFewPoints,
                 "a triangulation needs three distinct points, there are " + std::to_string(points.size()));
   }
   progress.start_phase("triangulating");
-  const std::vector<detail::DrawnEdge> edges = drawn_edges(constraints);
-  detail::Triangulated result = engine == TriangulationEngine::Flat
-                                    ? detail::triangulate_flat(points, edges, progress)
-                                    : detail::triangulate_by_cgal(points, edges, progress);
+  const std::vector<DrawnEdge> edges = drawn_edges(constraints);
+  Triangulated result = engine == TriangulationEngine::Flat
+                            ? triangulate_flat(points, edges, points_are, progress)
+                            : triangulate_by_cgal(points, edges, progress);
   if (result.crossing) {
     throw Error(ErrorCode::InvalidTin,
                 "the constraint edge from " + describe(points[result.crossing->first]) + " to " +
@@ -161,6 +159,18 @@ Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
     return {std::move(points), std::move(heights), std::move(result.plain), constraints};
   }
   return {std::move(points), std::move(heights), std::move(result.linked)};
+}
+
+}  // namespace detail
+
+std::string_view engine_name(TriangulationEngine engine) {
+  return engine == TriangulationEngine::Flat ? "flat" : "cgal";
+}
+
+Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
+                std::span<const ConstraintEdge> constraints, Progress& progress, TriangulationEngine engine) {
+  return detail::triangulate(std::move(points), std::move(heights), constraints, detail::PointOrder::Any,
+                             progress, engine);
 }
 
 }  // namespace thalweg
