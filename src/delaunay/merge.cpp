@@ -1,6 +1,9 @@
 // Distinct positions.
 //
-// 1. All positions, points first, then line vertices, are sorted by (x, y, index).
+// 1. All positions, points first, then line vertices, are sorted by (x, y, index); without snapping only
+// those
+//    points of which a set that forgets most of a position tells that they may be there twice, or that are
+//    near a line.
 // 2. Points without snapping: each run of equal positions is one group.
 // 3. With snapping a sweep in that order keeps the representatives within reach in x, sorted by y; two of
 // them
@@ -13,7 +16,9 @@
 #include "merge.hpp"
 
 #include "base/buckets.hpp"
+#include "base/ordered_blocks.hpp"
 #include "base/parallel.hpp"
+#include "box_tree.hpp"
 #include "noding.hpp"
 #include "provenance.hpp"
 
@@ -23,9 +28,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -169,20 +177,82 @@ std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const 
   return others;
 }
 
-// The positions from `first` on, sorted.
-RawVector<Placed> sort_places(std::span<const Point2> positions, std::size_t first,
+// A set of positions of which one bit each is kept: what it holds it has, and some more.
+class PositionMarks {
+ public:
+  explicit PositionMarks(std::size_t count) : words_(std::bit_ceil(kBitsAPosition * count / kWord + 2)) {}
+  /// Whether the set had it already. Threads may call it at the same time.
+  bool insert(Point2 p) {
+    const std::uint64_t bit = place_of(p);
+    const std::atomic_ref<std::uint64_t> word(words_[bit / kWord]);
+    return (word.fetch_or(kOne << bit % kWord, std::memory_order_relaxed) >> bit % kWord & 1U) != 0;
+  }
+  [[nodiscard]] bool contains(Point2 p) const {
+    const std::uint64_t bit = place_of(p);
+    return (words_[bit / kWord] >> bit % kWord & 1U) != 0;
+  }
+
+ private:
+  static constexpr std::uint64_t kBitsAPosition = 8, kWord = 64, kOne = 1;
+  [[nodiscard]] std::uint64_t place_of(Point2 p) const {
+    // splitmix64's last steps: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014. The
+    // sum makes a negative zero a positive one, which it equals.
+    std::uint64_t value = std::bit_cast<std::uint64_t>(p.x + 0.0) * 0xbf58476d1ce4e5b9U;
+    value = ((value ^ value >> 32U) + std::bit_cast<std::uint64_t>(p.y + 0.0)) * 0x94d049bb133111ebU;
+    return ((value ^ value >> 29U) * 0xbf58476d1ce4e5b9U) >> (64 - std::countr_zero(kWord * words_.size()));
+  }
+
+  std::vector<std::uint64_t> words_;
+};
+
+// Points whose positions may be those of others, or within reach of a line vertex: all that are, few more.
+std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::span<const Point2> on_lines,
+                                           double reach, const Progress& progress) {
+  std::vector<Segment> spots;
+  for (const Point2 p : on_lines) spots.push_back({p, p});
+  const TouchedSquares near_lines(spots, reach);
+  PositionMarks met(points.size()), met_again(points.size());
+  for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (met.insert(points[i])) met_again.insert(points[i]);
+    }
+  });
+  std::vector<std::uint32_t> all;
+  using Found = std::vector<std::uint32_t>;
+  for_each_block_in_order<Found>(
+      points.size(), kBlock, progress,
+      [&](std::size_t begin, std::size_t end, Found& found) {
+        found.clear();
+        for (std::size_t i = begin; i < end; ++i) {
+          const bool near = !spots.empty() && near_lines.may_meet(box_around(points[i], 0));
+          if (near || met_again.contains(points[i])) found.push_back(static_cast<std::uint32_t>(i));
+        }
+      },
+      [&](std::size_t, std::size_t, const Found& found) {
+        all.insert(all.end(), found.begin(), found.end());
+      });
+  return all;
+}
+
+std::vector<std::uint32_t> range(std::size_t begin, std::size_t end) {
+  std::vector<std::uint32_t> numbers(end - begin);
+  std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(begin));
+  return numbers;
+}
+
+// The positions with these indices, sorted.
+RawVector<Placed> sort_places(std::span<const Point2> positions, std::span<const std::uint32_t> indices,
                               const Progress& progress) {
-  const std::size_t count = positions.size();
+  const std::size_t count = indices.size();
   if (count == 0) return {};
-  Buckets buckets = sort_into_buckets(count, count / 2 + 1, [&](std::size_t i) { return positions[i].x; });
+  Buckets buckets =
+      sort_into_buckets(count, count / 2 + 1, [&](std::size_t i) { return positions[indices[i]].x; });
   RawVector<Placed> placed(count);
   for_each_block(buckets.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto from = placed.begin() + buckets.first[b];
       auto to = from;
-      for (const std::uint32_t i : buckets.items(b)) {
-        *to++ = {positions[i], static_cast<std::uint32_t>(first + i)};
-      }
+      for (const std::uint32_t i : buckets.items(b)) *to++ = {positions[indices[i]], indices[i]};
       std::sort(from, to);
     }
   });
@@ -192,15 +262,14 @@ RawVector<Placed> sort_places(std::span<const Point2> positions, std::size_t fir
 // For each index the index whose position it takes.
 std::vector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
                                                 double snap, double line_snap, const Progress& progress) {
-  std::vector<std::uint32_t> representative(all.size());
-  const RawVector<Placed> sorted = sort_places(all.first(point_count), 0, progress);
-  if (point_count == all.size() && !(snap > 0)) {
-    merge_equal(sorted, representative, progress);
-    return representative;
-  }
-  const std::vector<Placed> points = merge_in_order(sorted, snap, representative, progress);
+  std::vector<std::uint32_t> representative = range(0, all.size());
+  const std::vector<std::uint32_t> to_merge =
+      snap > 0 ? range(0, point_count)
+               : points_to_merge(all.first(point_count), all.subspan(point_count), line_snap, progress);
+  const std::vector<Placed> points =
+      merge_in_order(sort_places(all, to_merge, progress), snap, representative, progress);
   if (point_count == all.size()) return representative;
-  const RawVector<Placed> vertices = sort_places(all.subspan(point_count), point_count, progress);
+  const RawVector<Placed> vertices = sort_places(all, range(point_count, all.size()), progress);
   merge_in_order(join_points(vertices, points, line_snap, representative), line_snap, representative,
                  progress);
   return representative;

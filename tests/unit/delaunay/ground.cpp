@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 
 namespace thalweg {
 namespace {
@@ -145,6 +147,32 @@ TEST(Ground, EqualDuplicatesAreNoConflict) {
   std::vector<Point3> points = kSquare;
   points.push_back({0, 0, 0});
   EXPECT_TRUE(build(make_survey(points)).conflicts.empty());
+}
+
+TEST(Ground, FindsAllEqualPositionsAmongMany) {
+  // Columns and rows in all signs, zero in both; each position up to three times, far apart in the order.
+  std::vector<Point3> points;
+  std::map<std::pair<double, double>, std::size_t> first;
+  std::vector<std::size_t> expected;
+  for (int turn = 0; turn < 3; ++turn) {
+    for (int i = 0; i < 9000; ++i) {
+      if ((i + turn) % 4 == 0) continue;
+      double x = i % 95 - 47, y = i / 95 - 40;
+      if (turn == 1) x = x == 0 ? -x : x, y = y == 0 ? -y : y;
+      points.push_back({x, y, 1});
+      expected.push_back(first.emplace(std::pair(x, y), first.size()).first->second);
+    }
+  }
+  for (const bool with_line : {false, true}) {
+    Survey survey = make_survey(points);
+    if (with_line) add_hard(survey, {{-47, -40, 1}, {0, 0, 1}, {20, 11, 1}});
+    const Ground ground = build(survey);
+    EXPECT_EQ(ground.duplicates_merged, points.size() - first.size());
+    ASSERT_EQ(ground.point_vertices.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ASSERT_EQ(ground.point_vertices[i].index(), expected[i]) << "point " << i;
+    }
+  }
 }
 
 TEST(Ground, SnapsToTheFirstRepresentativeInOrderOfXThenY) {
