@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -16,6 +17,15 @@ void* try_allocate_pages(std::size_t bytes) noexcept {
   void* memory = std::aligned_alloc(kLargePage, whole);
   if (memory != nullptr) madvise(memory, whole, MADV_HUGEPAGE);  // advice: no harm if it is not taken
   return memory;
+}
+
+void advise_large_pages(void* memory, std::size_t bytes) noexcept {
+  if (bytes < kLargePage) return;
+  // Whole pages of the smallest kind: what else lies on them does not mind.
+  constexpr std::uintptr_t kPage = 4096;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory) / kPage * kPage;
+  const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
+  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 }
 
 void free_pages(void* memory) noexcept {

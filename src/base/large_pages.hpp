@@ -30,4 +30,14 @@ struct LargePageAllocator {
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
 
+/// Asks for large pages for memory that nobody has written to yet.
+void advise_large_pages(void* memory, std::size_t bytes) noexcept;
+
+/// Reserves memory on large pages for an array that has none: where it has to be a common vector.
+template <class T>
+void reserve_large(std::vector<T>& array, std::size_t count) {
+  array.reserve(count);
+  advise_large_pages(array.data(), count * sizeof(T));
+}
+
 }  // namespace thalweg

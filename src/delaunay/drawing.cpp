@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace thalweg {
 
@@ -21,7 +22,7 @@ namespace {
 constexpr std::uint32_t kNone = VertexId::kInvalid;
 
 // Only what is needed: all points, and the vertices of the given lines.
-MergedVertices restrict_to(const Survey& survey, const MergedVertices& merged,
+MergedVertices restrict_to(const Survey& survey, MergedVertices merged,
                            std::span<const std::uint32_t> lines) {
   if (lines.size() == survey.lines.size()) return merged;
   std::vector<bool> used(merged.xy.size());
@@ -104,16 +105,16 @@ void append_crossings(Drawing& drawing) {
 
 }  // namespace
 
-Drawing draw(const Survey& survey, const MergedVertices& merged, std::span<const std::uint32_t> lines,
+Drawing draw(const Survey& survey, MergedVertices merged, std::span<const std::uint32_t> lines,
              Progress& progress) {
   Drawing drawing;
-  drawing.vertices = restrict_to(survey, merged, lines);
+  drawing.vertices = restrict_to(survey, std::move(merged), lines);
   if (lines.empty()) return drawing;
   for (const std::uint32_t l : lines) {
     for (std::uint32_t i = 0; i + 1 < survey.lines[l].xy.size(); ++i) drawing.pieces.push_back({l, i});
   }
   const std::vector<SegmentEnds> segments = segments_of(drawing.vertices, drawing.pieces);
-  drawing.noding = node_segments(drawing.vertices.xy, segments, progress, merged.pixel);
+  drawing.noding = node_segments(drawing.vertices.xy, segments, progress, drawing.vertices.pixel);
   if (drawing.noding.failure) refuse(survey, drawing.pieces, *drawing.noding.failure);
   drawing.passages = find_passages(survey, drawing, lines);
   append_crossings(drawing);

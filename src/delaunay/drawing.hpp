@@ -38,7 +38,7 @@ struct Drawing {
 };
 
 /// Draws the given lines with all points. Throws: Error{TooClose} naming the lines.
-Drawing draw(const Survey& survey, const MergedVertices& merged, std::span<const std::uint32_t> lines,
+Drawing draw(const Survey& survey, MergedVertices merged, std::span<const std::uint32_t> lines,
              Progress& progress);
 
 /// The constraint edges of a drawing, each once, in order of vertices. Pre: it was drawn from `survey`.

@@ -11,6 +11,7 @@
 //    That equals dropping all that is outside first, because no empty circle has to heed what is behind a
 //    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
 //    them.
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "drawing.hpp"
@@ -36,6 +37,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace thalweg {
@@ -82,12 +84,12 @@ std::optional<double> height_at_rim(const Tin& tin, Point2 p, double reach) {
 }
 
 // Step 2. A vertex that rounding has put outside of the base's hull takes the height of the hull.
-void drape(const Survey& survey, const MergedVertices& merged, const GroundOptions& options,
-           const Drawing& drawing, Heights& heights, Progress& progress) {
+void drape(const Survey& survey, MergedVertices merged, const GroundOptions& options, const Drawing& drawing,
+           Heights& heights, Progress& progress) {
   if (std::find(heights.known.begin(), heights.known.end(), false) == heights.known.end()) return;
   const auto hard = lines_to_draw(
       survey, [](const SurveyLine& line) { return !line.z.empty() && !has(line.kind, EdgeKind::Lake); });
-  Drawing base = draw(survey, merged, hard, progress);
+  Drawing base = draw(survey, std::move(merged), hard, progress);
   if (base.vertices.xy.size() < 3) {
     throw Error(
         ErrorCode::TooFewPoints,
@@ -149,7 +151,9 @@ void keep_vertices(Plan& plan, const std::vector<bool>& keep) {
 void sort_along_curve(Plan& plan, const Progress& progress) {
   const std::vector<std::uint32_t> order = hilbert_order(plan.xy, progress);
   const auto sorted = [&](const auto& values) {
-    auto moved = values;
+    std::remove_cvref_t<decltype(values)> moved;
+    reserve_large(moved, values.size());
+    moved.resize(values.size());
     for_each_block(order.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) moved[v] = values[order[v]];
     });
@@ -158,7 +162,7 @@ void sort_along_curve(Plan& plan, const Progress& progress) {
   plan.xy = sorted(plan.xy);
   plan.z = sorted(plan.z);
   plan.origins = sorted(plan.origins);
-  std::vector<std::uint32_t> number(order.size());
+  RawVector<std::uint32_t> number(order.size());
   for (std::size_t v = 0; v < order.size(); ++v) number[order[v]] = static_cast<std::uint32_t>(v);
   for (std::uint32_t& now : plan.now_of) now = now == VertexId::kInvalid ? now : number[now];
 }
@@ -258,10 +262,13 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   MergedVertices merged = merge_vertices(survey, options, progress);
   check_rings(survey, merged);
   const auto every = lines_to_draw(survey, [](const SurveyLine&) { return true; });
-  Drawing drawing = draw(survey, merged, every, progress);
+  const bool some_lack_heights =
+      std::ranges::any_of(survey.lines, [](const SurveyLine& line) { return line.z.empty(); });
+  MergedVertices to_drape;
+  if (some_lack_heights) to_drape = merged;
+  Drawing drawing = draw(survey, std::move(merged), every, progress);
   Heights heights = resolve_heights(survey, drawing, options, progress);
-  drape(survey, merged, options, drawing, heights, progress);
-  merged = {};
+  if (some_lack_heights) drape(survey, std::move(to_drape), options, drawing, heights, progress);
 
   Ground ground;
   ground.mode = has_region(survey) ? GroundMode::Polygon : GroundMode::Hull;

@@ -16,6 +16,7 @@
 #include "merge.hpp"
 
 #include "base/buckets.hpp"
+#include "base/large_pages.hpp"
 #include "base/ordered_blocks.hpp"
 #include "base/parallel.hpp"
 #include "box_tree.hpp"
@@ -115,7 +116,7 @@ class Window {
 // For each index of `sorted` the index of its representative is set: the first of those within reach.
 // Returns the representatives.
 std::vector<Placed> merge_within(std::span<const Placed> sorted, double snap,
-                                 std::vector<std::uint32_t>& representative) {
+                                 LargeVector<std::uint32_t>& representative) {
   std::vector<Placed> kept;
   Window window(snap);
   for (const Placed& p : sorted) {
@@ -130,7 +131,7 @@ std::vector<Placed> merge_within(std::span<const Placed> sorted, double snap,
 }
 
 // The same for equal positions alone.
-void merge_equal(std::span<const Placed> sorted, std::vector<std::uint32_t>& representative,
+void merge_equal(std::span<const Placed> sorted, LargeVector<std::uint32_t>& representative,
                  const Progress& progress) {
   for_each_block(sorted.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -143,7 +144,7 @@ void merge_equal(std::span<const Placed> sorted, std::vector<std::uint32_t>& rep
 }
 
 std::vector<Placed> merge_in_order(std::span<const Placed> sorted, double snap,
-                                   std::vector<std::uint32_t>& representative, const Progress& progress) {
+                                   LargeVector<std::uint32_t>& representative, const Progress& progress) {
   if (snap > 0) return merge_within(sorted, snap, representative);
   merge_equal(sorted, representative, progress);
   std::vector<Placed> kept;
@@ -154,7 +155,7 @@ std::vector<Placed> merge_in_order(std::span<const Placed> sorted, double snap,
 
 // Assigns the line vertices that are near a point's representative; returns the others, still sorted.
 std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const Placed> points, double snap,
-                                std::vector<std::uint32_t>& representative) {
+                                LargeVector<std::uint32_t>& representative) {
   std::vector<Placed> others;
   Window window(snap);
   std::size_t next = 0;
@@ -206,7 +207,7 @@ class PositionMarks {
 };
 
 // Points whose positions may be those of others, or within reach of a line vertex: all that are, few more.
-std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::span<const Point2> on_lines,
+LargeVector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::span<const Point2> on_lines,
                                            double reach, const Progress& progress) {
   std::vector<Segment> spots;
   for (const Point2 p : on_lines) spots.push_back({p, p});
@@ -217,7 +218,7 @@ std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::
       if (met.insert(points[i])) met_again.insert(points[i]);
     }
   });
-  std::vector<std::uint32_t> all;
+  LargeVector<std::uint32_t> all;
   using Found = std::vector<std::uint32_t>;
   for_each_block_in_order<Found>(
       points.size(), kBlock, progress,
@@ -234,8 +235,8 @@ std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::
   return all;
 }
 
-std::vector<std::uint32_t> range(std::size_t begin, std::size_t end) {
-  std::vector<std::uint32_t> numbers(end - begin);
+LargeVector<std::uint32_t> range(std::size_t begin, std::size_t end) {
+  LargeVector<std::uint32_t> numbers(end - begin);
   std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(begin));
   return numbers;
 }
@@ -260,10 +261,10 @@ RawVector<Placed> sort_places(std::span<const Point2> positions, std::span<const
 }
 
 // For each index the index whose position it takes.
-std::vector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
+LargeVector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
                                                 double snap, double line_snap, const Progress& progress) {
-  std::vector<std::uint32_t> representative = range(0, all.size());
-  const std::vector<std::uint32_t> to_merge =
+  LargeVector<std::uint32_t> representative = range(0, all.size());
+  const LargeVector<std::uint32_t> to_merge =
       snap > 0 ? range(0, point_count)
                : points_to_merge(all.first(point_count), all.subspan(point_count), line_snap, progress);
   const std::vector<Placed> points =
@@ -281,20 +282,27 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   progress.start_phase("merging points");
   check_coordinates(survey);
   MergedVertices merged;
-  std::vector<Point2> all = survey.points.xy;
-  const std::size_t point_count = all.size();
+  const std::size_t point_count = survey.points.xy.size();
+  std::vector<Point2> with_lines;
   std::vector<VertexOrigin> line_origins;
+  if (!survey.lines.empty()) {
+    std::size_t count = point_count;
+    for (const SurveyLine& line : survey.lines) count += line.xy.size();
+    reserve_large(with_lines, count);
+    with_lines.insert(with_lines.end(), survey.points.xy.begin(), survey.points.xy.end());
+  }
   for (std::size_t l = 0; l < survey.lines.size(); ++l) {
     const SurveyLine& line = survey.lines[l];
-    merged.first_of_line.push_back(all.size() - point_count);
-    all.insert(all.end(), line.xy.begin(), line.xy.end());
+    merged.first_of_line.push_back(with_lines.size() - point_count);
+    with_lines.insert(with_lines.end(), line.xy.begin(), line.xy.end());
     for (std::size_t i = 0; i < line.xy.size(); ++i) {
       line_origins.push_back(
           {VertexOrigin::Kind::LineVertex, static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(i)});
     }
   }
+  const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;
   merged.pixel = snapping_pixel(all, options.resolution);
-  const std::vector<std::uint32_t> representative = find_representatives(
+  const LargeVector<std::uint32_t> representative = find_representatives(
       all, point_count, options.snap, std::max(options.snap, merged.pixel / 4), progress);
   progress.advance(0.5);
 
@@ -303,10 +311,11 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   };
   // Number the groups by their first members; `number` is indexed by representatives.
   constexpr std::uint32_t kNone = VertexId::kInvalid;
-  merged.xy.reserve(all.size());
-  merged.origins.reserve(all.size());
-  std::vector<std::uint32_t> number(all.size(), kNone);
-  std::vector<std::uint32_t> vertex_of(all.size());
+  reserve_large(merged.xy, all.size());
+  reserve_large(merged.origins, all.size());
+  LargeVector<std::uint32_t> number(all.size(), kNone);
+  std::vector<std::uint32_t> vertex_of;
+  reserve_large(vertex_of, all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::uint32_t& vertex = number[representative[i]];
     if (vertex == kNone) {
@@ -314,7 +323,7 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
       merged.xy.push_back(all[representative[i]]);
       merged.origins.push_back(origin_of(representative[i]));
     }
-    vertex_of[i] = vertex;
+    vertex_of.push_back(vertex);
     if (i + 1 == point_count) merged.point_count = merged.xy.size();
   }
   merged.of_line_vertex.assign(vertex_of.begin() + static_cast<std::ptrdiff_t>(point_count), vertex_of.end());
