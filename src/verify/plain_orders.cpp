@@ -13,8 +13,10 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 namespace thalweg::verify {
 
@@ -65,6 +67,27 @@ std::optional<Shadow> shadow_of(const RationalPoint& p, const RationalPoint& u, 
   return Shadow{std::min(first, second), std::max(first, second)};
 }
 
+// Counter-clockwise; vertices within a side of the hull are ends of edges, too.
+std::vector<std::pair<Index, Index>> hull_edges(const PlainMesh& mesh) {
+  std::vector<Index> order(mesh.xy.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index v, Index w) { return mesh.at(v) < mesh.at(w); });
+  std::vector<std::pair<Index, Index>> edges;
+  for (int half = 0; half < 2; ++half) {
+    std::vector<Index> chain;
+    for (const Index v : order) {
+      while (chain.size() > 1 &&
+             turn(mesh.at(chain[chain.size() - 2]), mesh.at(chain.back()), mesh.at(v)) < 0) {
+        chain.pop_back();
+      }
+      chain.push_back(v);
+    }
+    for (std::size_t i = 1; i < chain.size(); ++i) edges.emplace_back(chain[i - 1], chain[i]);
+    std::reverse(order.begin(), order.end());
+  }
+  return edges;
+}
+
 bool cover(std::vector<Shadow> shadows) {
   std::sort(shadows.begin(), shadows.end(), [](const Shadow& a, const Shadow& b) { return a.from < b.from; });
   Rational reached = 0;
@@ -86,12 +109,16 @@ PlainOrders::PlainOrders(const PlainMesh& mesh, OrderDefinition definition, bool
   for (std::size_t v = 0; v < mesh.xy.size(); ++v) {
     points_.file_box({mesh.xy[v].x, mesh.xy[v].y, mesh.xy[v].x, mesh.xy[v].y}, static_cast<Index>(v));
   }
-  for (const auto& [edge, kind] : mesh.constraints) {
+  const auto add_edge = [&](const std::pair<Index, Index>& edge) {
     edges_.file_segment(mesh.at(edge.first), mesh.at(edge.second), static_cast<Index>(constraints_.size()));
     constraints_.push_back(edge);
-  }
+  };
+  for (const auto& [edge, kind] : mesh.constraints) add_edge(edge);
   if (definition == OrderDefinition::Pathcon) flood_.emplace(mesh, polygon);
   if (!polygon) return;
+  for (const auto& edge : hull_edges(mesh)) {
+    if (!mesh.constrained(edge.first, edge.second)) add_edge(edge);
+  }
   fans_.resize(mesh.xy.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const Index v : mesh.triangles[t]) fans_[v].push_back(static_cast<Index>(t));

@@ -19,8 +19,9 @@ namespace thalweg::verify {
 
 class PlainOrders {
  public:
-  /// `polygon`: constraint edges of kinds boundary and hole bound the ground, and sights stay inside it.
-  /// Pre: the mesh is sound and outlives this object.
+  /// `polygon`: constraint edges of kinds boundary and hole bound the ground, and sights stay inside it; so
+  /// do the edges of the convex hull, where holes alone are drawn. Pre: the mesh is sound and outlives this
+  /// object.
   PlainOrders(const PlainMesh& mesh, OrderDefinition definition, bool polygon);
 
   /// False under pathcon if the mesh does not cover the ground on which paths go; then nothing can be asked.
@@ -48,8 +49,8 @@ class PlainOrders {
   std::optional<PlainFlood> flood_;  ///< pathcon
   PlainGrid points_;
   PlainGrid edges_;
-  std::vector<std::pair<Index, Index>> constraints_;
-  std::vector<std::vector<Index>> fans_;  ///< polygon: the triangles at each vertex
+  std::vector<std::pair<Index, Index>> constraints_;  ///< and what else hides
+  std::vector<std::vector<Index>> fans_;              ///< polygon: the triangles at each vertex
 };
 
 }  // namespace thalweg::verify

@@ -7,8 +7,10 @@
 namespace thalweg {
 
 enum class GroundMode : std::uint8_t {
-  Hull,    ///< the convex hull of all vertices; outside of it paths may run, too
-  Polygon  ///< the boundary and holes that were given: what lies outside is no ground at all
+  Hull,  ///< the convex hull of all vertices; outside of it paths may run, too
+  /// The boundary and holes that were given, else the hull: what lies outside is no ground at all, and edges
+  /// of the rim hide what is behind them as constraint edges do.
+  Polygon
 };
 
 }  // namespace thalweg
