@@ -163,8 +163,15 @@ void sort_along_curve(Plan& plan, const Progress& progress) {
   plan.z = sorted(plan.z);
   plan.origins = sorted(plan.origins);
   RawVector<std::uint32_t> number(order.size());
-  for (std::size_t v = 0; v < order.size(); ++v) number[order[v]] = static_cast<std::uint32_t>(v);
-  for (std::uint32_t& now : plan.now_of) now = now == VertexId::kInvalid ? now : number[now];
+  for_each_block(order.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) number[order[v]] = static_cast<std::uint32_t>(v);
+  });
+  for_each_block(plan.now_of.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      std::uint32_t& now = plan.now_of[v];
+      if (now != VertexId::kInvalid) now = number[now];
+    }
+  });
 }
 
 // For each vertex that is left its rank among these in the order of the drawing.

@@ -8,6 +8,7 @@
 //    round, so a round is a random sample as far as the pattern of the input is concerned.
 #include "spatial_order.hpp"
 
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 
 #include <thalweg/base/raw_vector.hpp>
@@ -127,6 +128,17 @@ void sort_by_key(RawVector<Keyed>& keyed, const Progress& progress) {
   }
 }
 
+template <class Item>
+std::vector<std::uint32_t> indices_of(const RawVector<Item>& items, const Progress& progress) {
+  std::vector<std::uint32_t> indices;
+  reserve_large(indices, items.size());
+  indices.resize(items.size());
+  for_each_block(items.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) indices[i] = items[i].index;
+  });
+  return indices;
+}
+
 /// The grid over the points' bounding box.
 class Grid {
  public:
@@ -159,9 +171,7 @@ std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const P
     }
   });
   if (!std::is_sorted(keyed.begin(), keyed.end())) sort_by_key(keyed, progress);
-  std::vector<std::uint32_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
-  return order;
+  return indices_of(keyed, progress);
 }
 
 std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, const Progress& progress) {
@@ -178,9 +188,7 @@ std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, 
   });
   sort_by_digit(keyed, other, progress, [](const CoarselyKeyed& k) { return k.key & (kBuckets - 1); });
   sort_by_digit(keyed, other, progress, [](const CoarselyKeyed& k) { return k.key >> kDigitBits; });
-  std::vector<std::uint32_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = keyed[i].index;
-  return order;
+  return indices_of(keyed, progress);
 }
 
 std::size_t insertion_round(std::uint32_t index) {
