@@ -8,7 +8,10 @@
 //   2. A crossing that lies in no vertex's cell gets a vertex of its own: the grid node nearest to it.
 //   3. Each link is rerouted through every vertex whose cell it meets, in the order in which it enters them.
 //      Where cells overlap a chain may come back to a vertex; such loops are cut off.
-// Searches use a tree of boxes (box_tree.hpp); every decision is exact (segments.hpp).
+// Searches use a tree of boxes (box_tree.hpp); every decision is exact (segments.hpp). A link that was one of
+// the round before, and met no cell then, meets no smaller one now, and crosses no other such link: where
+// they crossed there was a cell. So from the second round on only links that are new are looked at, among
+// all.
 //
 // Why links then do not cross, as long as the cells are disjoint. Shrink every cell m + K to its centre: at
 // time t it is m + (1 - t) K, and what lies in it shrinks with it. A part of a link between two cells, from p
@@ -136,12 +139,13 @@ class Noder {
       collect_links();
       const BoxTree tree = segment_tree(links_, progress_);
       const std::vector<LinkPair> crossings = find_crossings(tree);
-      std::vector<Stop> stops = find_stops(tree, 0, grid);
+      std::vector<Stop> stops = round == 0 ? find_stops(tree, {}, 0, grid) : find_stops_of_new(grid);
       const auto contact = std::find_if(stops.begin(), stops.end(), [](const Stop& s) { return s.on_link; });
       if (crossings.empty() && (round == 0 ? stops.empty() : contact == stops.end())) return finish();
       if (round == kRounds) return fail(crossings, contact == stops.end() ? nullptr : &*contact);
       add_crossing_vertices(tree, crossings, stops, grid);
       reroute(stops, grid);
+      keep_quiet(stops);
     }
   }
 
@@ -166,14 +170,27 @@ class Noder {
     });
     ends_.clear();
     links_.clear();
+    new_.clear();
     link_of_step_.assign(nodes_.size(), 0);
     for (const Step& step : steps) {
       const SegmentEnds ends{step.from, step.to};
       if (ends_.empty() || ends_.back() != ends) {
         ends_.push_back(ends);
         links_.push_back({xy_[step.from], xy_[step.to]});
+        new_.push_back(!std::binary_search(quiet_.begin(), quiet_.end(), ends));
       }
       link_of_step_[step.node] = static_cast<std::uint32_t>(ends_.size() - 1);
+    }
+  }
+
+  // Pre: `stops` in order of links.
+  void keep_quiet(std::span<const Stop> stops) {
+    quiet_.clear();
+    for (std::uint32_t link = 0; link < ends_.size(); ++link) {
+      std::size_t count = 0;
+      while (count < stops.size() && stops[count].link == link) ++count;
+      if (count == 0) quiet_.push_back(ends_[link]);
+      stops = stops.subspan(count);
     }
   }
 
@@ -187,12 +204,16 @@ class Noder {
     for_each_block(tree.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t one = tree.item(i);
+        if (!new_[one]) continue;
         const std::size_t before = found[begin / kBlock].size();
         tree.visit(tree.box(i), [&](std::uint32_t other) {
-          if (other <= one || is_end(one, ends_[other][0]) || is_end(one, ends_[other][1])) return;
+          if (other == one || (new_[other] && other < one)) return;
+          if (is_end(one, ends_[other][0]) || is_end(one, ends_[other][1])) return;
           const auto& [a, b] = links_[one];
           const auto& [c, d] = links_[other];
-          if (cross_properly(a, b, c, d)) found[begin / kBlock].push_back({one, other});
+          if (cross_properly(a, b, c, d)) {
+            found[begin / kBlock].push_back({std::min(one, other), std::max(one, other)});
+          }
         });
         tally.add(found[begin / kBlock].size() - before);
       }
@@ -224,8 +245,10 @@ class Noder {
     return along;
   }
 
-  // The stops at vertices from `first` on, in order of links.
-  [[nodiscard]] std::vector<Stop> find_stops(const BoxTree& tree, std::size_t first, double grid) const {
+  // The stops at vertices from `first` on, in order of links. `links`: what the tree's items are; none:
+  // links.
+  [[nodiscard]] std::vector<Stop> find_stops(const BoxTree& tree, std::span<const std::uint32_t> links,
+                                             std::size_t first, double grid) const {
     const std::vector<std::uint32_t> near = find_near(tree, first, grid);
     std::vector<std::vector<Stop>> found((near.size() + kBlock - 1) / kBlock);
     Tally tally(kMostStops, "run along each other or through vertices");
@@ -234,7 +257,8 @@ class Noder {
         const std::size_t before = found[begin / kBlock].size();
         const std::uint32_t vertex = near[i];
         const Cell cell(xy_[vertex], grid);
-        tree.visit(box_of(cell), [&](std::uint32_t link) {
+        tree.visit(box_of(cell), [&](std::uint32_t item) {
+          const std::uint32_t link = links.empty() ? item : links[item];
           if (is_end(link, vertex)) return;
           const bool on_link = on_segment(links_[link].a, links_[link].b, cell.centre);
           if (on_link || meets_cell(links_[link], cell)) {
@@ -247,6 +271,17 @@ class Noder {
     std::vector<Stop> stops = gather(found);
     sort_stops(stops);
     return stops;
+  }
+
+  [[nodiscard]] std::vector<Stop> find_stops_of_new(double grid) const {
+    std::vector<std::uint32_t> links;
+    std::vector<Segment> segments;
+    for (std::uint32_t link = 0; link < links_.size(); ++link) {
+      if (!new_[link]) continue;
+      links.push_back(link);
+      segments.push_back(links_[link]);
+    }
+    return find_stops(segment_tree(segments, progress_), links, 0, grid);
   }
 
   static void sort_stops(std::vector<Stop>& stops) {
@@ -280,7 +315,7 @@ class Noder {
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const std::size_t first_new = xy_.size();
     xy_.insert(xy_.end(), nodes.begin(), nodes.end());
-    const std::vector<Stop> more = find_stops(tree, first_new, grid);
+    const std::vector<Stop> more = find_stops(tree, {}, first_new, grid);
     stops.insert(stops.end(), more.begin(), more.end());
     sort_stops(stops);
   }
@@ -419,6 +454,8 @@ class Noder {
   std::vector<SegmentEnds> ends_;
   std::vector<Segment> links_;
   std::vector<std::uint32_t> link_of_step_;
+  std::vector<bool> new_;
+  std::vector<SegmentEnds> quiet_;  // the links of the round before that had no stops, sorted
 };
 
 }  // namespace
