@@ -39,6 +39,20 @@ void CornerViews::start_through(const Ground& ground, const Triangle& corners, s
   look_through_side();
 }
 
+void CornerViews::start_past(const Ground& ground, const Triangle& corners, HalfedgeId to_first,
+                             HalfedgeId from_last) {
+  set_up(ground, corners, 2);
+  turn_ = 2;
+  clear();
+  u_ = corners[2];
+  v_ = corners[0];
+  eye_ = corners[1];
+  for (const HalfedgeId edge : {to_first, from_last}) {
+    open_.push_back(
+        {edge, {ground.point(ground.tin().origin(edge)), ground.point(ground.tin().target(edge))}});
+  }
+}
+
 void CornerViews::clear() {
   open_.clear();
   at_border_.clear();

@@ -28,6 +28,9 @@ class CornerViews {
   /// Looks through one side, from corners[side] to the next, from a vertex inside beyond another side.
   /// Pre: as for start.
   void start_through(const Ground& ground, const Triangle& corners, std::size_t side, VertexId eye);
+  /// Looks through side corners[2] corners[0] from corners[1], past a vertex that is next to all corners and
+  /// beyond that side: by the edges that join it to corners[0] and corners[2], of the faces at the eye.
+  void start_past(const Ground& ground, const Triangle& corners, HalfedgeId to_first, HalfedgeId from_last);
   /// The next vertex that an eye sees, in no promised order, for each eye once. None if there is no further
   /// one, or if the walk grew too long. Complexity, all calls together: a face for each time that the lines
   /// of sight to two neighbouring vertices enclose it.

@@ -15,16 +15,25 @@
 //    cross the line xy off the segment xy, at a point of D; but D is convex, meets the open segment, and
 //    holds neither x nor y. So D beyond xy is part of the disc of v x y, where no vertex can be reached. The
 //    signs are those of the perturbed points.
-// 3. So: no neighbour of v but u, s, t in D: order 1 under all definitions but Std. A neighbour x in D beyond
-//    st that sees u counts from Std to SeesOpp. Anything else is left to ConstrainedOrder, and happens next
-//    to edges that block. Without such edges all definitions up to Sees3vtx agree.
-// 4. The neighbours across the four sides come first, of these the ones that need no exact arithmetic: they
+// 3. So: no neighbour of v but u, s, t in D: order 1 under all definitions but Std.
+// 4. A neighbour x in D lies beyond st, for vx does not cross the quadrilateral. If no edge that blocks ends
+//    in v, a vertex other than v counts from Std to SeesOpp: turn the line of sight from u to v, which is
+//    free, towards x, with its far end on the edge vx. It gets to x, or first meets an end of an edge that
+//    blocks, nothing being nearer on it; either lies in D beyond st, and sees u.
+// 5. If one ends in v, a neighbour across vs or tv still counts when what joins it to u crosses that side
+//    and the side does not block. Else, under SeesOpp, and ConfEdge, which agrees at order 1, it is asked
+//    what u sees through st, beside v. Other definitions leave it to ConstrainedOrder. Without edges that
+//    block all definitions up to Sees3vtx agree.
+// 6. The neighbours across the four sides come first, of these the ones that need no exact arithmetic: they
 //    refuse most edges.
-// 5. Std: there is a triangulation of order at most 1 only if the constrained Delaunay triangulation is one;
+// 7. Std: there is a triangulation of order at most 1 only if the constrained Delaunay triangulation is one;
 //    then both triangles must pass the Std flood as well.
 #include "base/parallel.hpp"
+#include "order/corner_views.hpp"
+#include "order/ground.hpp"
 #include "order/quadrilateral_filter.hpp"
 
+#include <thalweg/base/lazy.hpp>
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/mesh/rim.hpp>
 #include <thalweg/order/constrained_order.hpp>
@@ -35,6 +44,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <memory>
 
 namespace thalweg {
 
@@ -42,16 +52,29 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;
 
+/// Memory of a thread.
+struct Workspace {
+  OrderWorkspace order;
+  detail::CornerViews views;
+};
+
 class QuadrilateralSearch {
  public:
   QuadrilateralSearch(const Tin& tin, const QuadrilateralOptions& options)
-      : tin_(tin), definition_(options.definition), order_(tin, options.mode), rim_(rim_halfedges(tin)) {}
+      : tin_(tin), definition_(options.definition), ground_(tin, options.mode), rim_(rim_halfedges(tin)) {}
 
-  [[nodiscard]] bool is_quadrilateral(const EdgeSurroundings& edge, OrderWorkspace& workspace) const;
-  [[nodiscard]] bool delaunay_fits(TriangleId t, OrderWorkspace& workspace) const {
-    return order_.at_most(tin_.triangle(t), OrderDefinition::Std, 1, workspace);
+  [[nodiscard]] bool is_quadrilateral(const EdgeSurroundings& edge, Workspace& workspace) const;
+  [[nodiscard]] bool delaunay_fits(TriangleId t, Workspace& workspace) const {
+    return order().at_most(tin_.triangle(t), OrderDefinition::Std, 1, workspace.order);
   }
-  [[nodiscard]] bool unconstrained() const { return order_.unconstrained(); }
+  [[nodiscard]] bool unconstrained() const { return !ground_.any_blocks(); }
+  [[nodiscard]] const detail::Ground& ground() const { return ground_; }
+  /// Where a neighbour of the inner vertex that is inside refuses an edge.
+  [[nodiscard]] Refusing refusing() const {
+    if (definition_ == OrderDefinition::EmptyQuad) return Refusing::None;
+    if (unconstrained()) return Refusing::All;
+    return definition_ == OrderDefinition::Sees3vtx ? Refusing::None : Refusing::Unblocked;
+  }
 
  private:
   enum class Verdict { Fits, Unclear, Refused };
@@ -63,75 +86,66 @@ class QuadrilateralSearch {
     std::array<VertexId, 2> beyond;  ///< the vertices across them
     std::array<std::int8_t, 2> inside;
   };
-  static bool is_corner(const Half& half, VertexId x) {
-    return x == half.corners[0] || x == half.corners[1] || x == half.corners[2];
+  [[nodiscard]] const ConstrainedOrder& order() const {
+    return *order_.get([this] { return std::make_unique<ConstrainedOrder>(tin_, ground_.mode()); });
   }
-  [[nodiscard]] Verdict judge_inside(const Half& half) const;
-  [[nodiscard]] Verdict judge_unclear(const Half& half) const;
+  [[nodiscard]] Verdict judge_beyond(const Half& half) const;
   [[nodiscard]] Verdict judge_others(const Half& half) const;
   [[nodiscard]] Verdict judge(const Half& half, VertexId x) const;
-  [[nodiscard]] Verdict weigh(const Triangle& corners, VertexId x) const;
-  [[nodiscard]] Verdict weigh_beyond(const Half& half, std::size_t i) const;
-  [[nodiscard]] bool fits(const Half& half, Verdict beyond, OrderWorkspace& workspace) const;
+  [[nodiscard]] Verdict weigh(const Half& half) const;
+  [[nodiscard]] bool crosses_side(const Half& half, std::size_t i) const;
+  [[nodiscard]] bool fits(const Half& half, Verdict beyond, Workspace& workspace) const;
+  [[nodiscard]] bool is_order_one(const Half& half, Workspace& workspace) const;
 
   const Tin& tin_;
   OrderDefinition definition_;
-  ConstrainedOrder order_;
+  detail::Ground ground_;
+  Lazy<std::unique_ptr<ConstrainedOrder>> order_;  ///< few need it
   std::vector<HalfedgeId> rim_;
 };
 
-// A neighbour x of the inner vertex lies inside: is that enough to refuse triangle s u t?
-QuadrilateralSearch::Verdict QuadrilateralSearch::weigh(const Triangle& corners, VertexId x) const {
-  if (definition_ == OrderDefinition::EmptyQuad) return Verdict::Unclear;
-  if (order_.unconstrained()) return Verdict::Refused;
-  if (definition_ == OrderDefinition::Sees3vtx) return Verdict::Unclear;
-  const bool beyond_st = orientation(tin_.point(corners[2]), tin_.point(corners[0]), tin_.point(x)) < 0;
-  return beyond_st && order_.sees(x, corners[1]) ? Verdict::Refused : Verdict::Unclear;
-}
-
-// The same for the vertex across a side at the inner vertex. Where what joins it to the opposite corner
-// crosses that side, nothing else can be in the way: from there on it runs within the quadrilateral.
-QuadrilateralSearch::Verdict QuadrilateralSearch::weigh_beyond(const Half& half, std::size_t i) const {
-  const auto& [a, b, c] = half.corners;
-  const VertexId x = half.beyond[i];
-  if (definition_ <= OrderDefinition::SeesOpp && !order_.unconstrained()) {
-    const Point2 from = tin_.point(x), to = tin_.point(b);
-    const int of_outer = orientation(from, to, tin_.point(i == 0 ? a : c));
-    const int of_inner = orientation(from, to, tin_.point(half.inner));
-    const bool beyond_st = orientation(tin_.point(c), tin_.point(a), from) < 0;
-    if (beyond_st && of_outer * of_inner < 0) {
-      return tin_.constrained(i == 0 ? half.side : half.last) ? Verdict::Unclear : Verdict::Refused;
-    }
+// A neighbour of the inner vertex lies inside: is that enough to refuse the half?
+QuadrilateralSearch::Verdict QuadrilateralSearch::weigh(const Half& half) const {
+  switch (refusing()) {
+    case Refusing::All:
+      return Verdict::Refused;
+    case Refusing::Unblocked:
+      return ground_.blocks(half.inner) ? Verdict::Unclear : Verdict::Refused;
+    case Refusing::None:
+      break;
   }
-  return weigh(half.corners, x);
+  return Verdict::Unclear;
 }
 
-// The vertices across the two sides at the inner vertex, as far as the filter found them inside.
-QuadrilateralSearch::Verdict QuadrilateralSearch::judge_inside(const Half& half) const {
+// Whether what joins the vertex across a side at the inner vertex to the opposite corner crosses that side:
+// then nothing else can be in the way, for from there on it runs within the quadrilateral.
+bool QuadrilateralSearch::crosses_side(const Half& half, std::size_t i) const {
+  const Point2 from = tin_.point(half.beyond[i]), to = tin_.point(half.corners[1]);
+  return orientation(from, to, tin_.point(half.corners[i == 0 ? 0 : 2])) *
+             orientation(from, to, tin_.point(half.inner)) <
+         0;
+}
+
+// The vertices across the two sides at the inner vertex.
+QuadrilateralSearch::Verdict QuadrilateralSearch::judge_beyond(const Half& half) const {
   Verdict worst = Verdict::Fits;
   for (std::size_t i = 0; i < 2 && worst != Verdict::Refused; ++i) {
-    if (half.inside[i] != kInside || is_corner(half, half.beyond[i])) continue;
-    worst = std::max(worst, weigh_beyond(half, i));
-  }
-  return worst;
-}
-
-// The same vertices, as far as the filter says nothing of them.
-QuadrilateralSearch::Verdict QuadrilateralSearch::judge_unclear(const Half& half) const {
-  Verdict worst = Verdict::Fits;
-  for (std::size_t i = 0; i < 2 && worst != Verdict::Refused; ++i) {
-    if (half.inside[i] == kUnclear) worst = std::max(worst, judge(half, half.beyond[i]));
+    if (half.inside[i] == kOutside) continue;
+    const Verdict verdict = half.inside[i] == kInside ? weigh(half) : judge(half, half.beyond[i]);
+    worst = std::max(worst, verdict);
+    if (verdict != Verdict::Unclear || definition_ > OrderDefinition::SeesOpp) continue;
+    if (!ground_.blocks(i == 0 ? half.side : half.last) && crosses_side(half, i)) worst = Verdict::Refused;
   }
   return worst;
 }
 
 QuadrilateralSearch::Verdict QuadrilateralSearch::judge(const Half& half, VertexId x) const {
   const auto& [a, b, c] = half.corners;
-  if (is_corner(half, x) ||
+  if (x == a || x == b || x == c ||
       !in_circle_perturbed(tin_.point(a), tin_.point(b), tin_.point(c), tin_.point(x))) {
     return Verdict::Fits;
   }
-  return weigh(half.corners, x);
+  return weigh(half);
 }
 
 // The other neighbours of the inner vertex: from the triangle across one side, turn by turn, to that across
@@ -162,43 +176,48 @@ QuadrilateralSearch::Verdict QuadrilateralSearch::judge_others(const Half& half)
   return worst;
 }
 
-bool QuadrilateralSearch::fits(const Half& half, Verdict beyond, OrderWorkspace& workspace) const {
+bool QuadrilateralSearch::fits(const Half& half, Verdict beyond, Workspace& workspace) const {
   const Verdict verdict = std::max(beyond, judge_others(half));
   if (verdict == Verdict::Refused) return false;
-  const bool decided =
-      verdict == Verdict::Fits && (definition_ != OrderDefinition::Std || order_.unconstrained());
-  return decided || order_.at_most(half.corners, definition_, 1, workspace);
+  const bool decided = verdict == Verdict::Fits && (definition_ != OrderDefinition::Std || unconstrained());
+  return decided || is_order_one(half, workspace);
 }
 
-bool QuadrilateralSearch::is_quadrilateral(const EdgeSurroundings& edge, OrderWorkspace& workspace) const {
-  const auto& [s, u, t, v, h] = edge.quadrilateral;
-  const auto& [vs, tv, ut, su] = edge.sides;
-  const auto& beyond = edge.beyond;
-  const Half at_u{{s, u, t}, v, vs, tv, {beyond[0], beyond[1]}, {edge.inside[0], edge.inside[1]}};
-  const Half at_v{{t, v, s}, u, ut, su, {beyond[2], beyond[3]}, {edge.inside[2], edge.inside[3]}};
-  std::array<Verdict, 2> verdict{};
-  for (const auto judge_some : {&QuadrilateralSearch::judge_inside, &QuadrilateralSearch::judge_unclear}) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      verdict[i] = std::max(verdict[i], (this->*judge_some)(i == 0 ? at_u : at_v));
-      if (verdict[i] == Verdict::Refused) return false;
-    }
+bool QuadrilateralSearch::is_order_one(const Half& half, Workspace& workspace) const {
+  if (definition_ == OrderDefinition::ConfEdge || definition_ == OrderDefinition::SeesOpp) {
+    workspace.views.start_past(ground_, half.corners, half.side, half.last);
+    if (workspace.views.next()) return false;
+    if (!workspace.views.gave_up()) return true;
   }
-  return fits(at_u, verdict[0], workspace) && fits(at_v, verdict[1], workspace);
+  return order().at_most(half.corners, definition_, 1, workspace.order);
+}
+
+bool QuadrilateralSearch::is_quadrilateral(const EdgeSurroundings& edge, Workspace& workspace) const {
+  const auto& [s, u, t, v, uv] = edge.quadrilateral;
+  if (!edge.convex && !(orientation(tin_.point(s), tin_.point(u), tin_.point(t)) > 0 &&
+                        orientation(tin_.point(t), tin_.point(v), tin_.point(s)) > 0)) {
+    return false;
+  }
+  const HalfedgeId vu = tin_.twin(uv);
+  const auto& beyond = edge.beyond;
+  const auto& inside = edge.inside;
+  const Half at_u{
+      {s, u, t}, v, Tin::next(uv), Tin::previous(vu), {beyond[0], beyond[1]}, {inside[0], inside[1]}};
+  const Half at_v{
+      {t, v, s}, u, Tin::next(vu), Tin::previous(uv), {beyond[2], beyond[3]}, {inside[2], inside[3]}};
+  const Verdict past_u = judge_beyond(at_u);
+  if (past_u == Verdict::Refused) return false;
+  const Verdict past_v = judge_beyond(at_v);
+  if (past_v == Verdict::Refused) return false;
+  return fits(at_u, past_u, workspace) && fits(at_v, past_v, workspace);
 }
 
 // The quadrilaterals of a range of halfedges.
-void find_among(const QuadrilateralSearch& search, const Tin& tin, std::size_t begin, std::size_t end,
-                OrderWorkspace& workspace, std::vector<Quadrilateral>& found) {
-  QuadrilateralFilter filter(tin);
-  std::array<HalfedgeId, QuadrilateralFilter::kMost> edges;
-  for (std::size_t h = begin; h < end;) {
-    std::size_t count = 0;
-    for (; h < end && count < edges.size(); ++h) {
-      const HalfedgeId twin = tin.twin(HalfedgeId{h});
-      if (twin.valid() && HalfedgeId{h} < twin && !tin.constrained(HalfedgeId{h}))
-        edges[count++] = HalfedgeId{h};
-    }
-    for (const EdgeSurroundings& edge : filter.look(std::span(edges).first(count))) {
+void find_among(const QuadrilateralSearch& search, std::size_t begin, std::size_t end, Workspace& workspace,
+                std::vector<Quadrilateral>& found) {
+  QuadrilateralFilter filter(search.ground(), search.refusing());
+  for (; begin < end; begin += QuadrilateralFilter::kMost) {
+    for (const EdgeSurroundings& edge : filter.look(begin, std::min(end, begin + filter.kMost))) {
       if (search.is_quadrilateral(edge, workspace)) found.push_back(edge.quadrilateral);
     }
   }
@@ -209,7 +228,7 @@ void find_among(const QuadrilateralSearch& search, const Tin& tin, std::size_t b
 std::vector<Quadrilateral> find_quadrilaterals(const Tin& ground, const QuadrilateralOptions& options,
                                                const Progress& progress) {
   const QuadrilateralSearch search(ground, options);
-  tbb::enumerable_thread_specific<OrderWorkspace> workspaces;
+  tbb::enumerable_thread_specific<Workspace> workspaces;
   if (options.definition == OrderDefinition::Std && !search.unconstrained()) {
     std::atomic<bool> fits{true};
     for_each_block(ground.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
@@ -222,7 +241,7 @@ std::vector<Quadrilateral> find_quadrilaterals(const Tin& ground, const Quadrila
 
   std::vector<std::vector<Quadrilateral>> found(ground.halfedge_count() / kBlock + 1);
   for_each_block(ground.halfedge_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    find_among(search, ground, begin, end, workspaces.local(), found[begin / kBlock]);
+    find_among(search, begin, end, workspaces.local(), found[begin / kBlock]);
   });
   std::vector<Quadrilateral> all;
   std::size_t total = 0;
