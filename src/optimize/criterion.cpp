@@ -24,12 +24,6 @@ namespace thalweg {
 
 namespace {
 
-/// Its sum and its largest value are measures of smoothness in van Kreveld, Loeffler, Silveira, Optimization
-/// for first order Delaunay triangulations, 2010.
-double angle(double radians) {
-  return radians;
-}
-
 double angle_squared(double radians) {
   return radians * radians;
 }
@@ -173,9 +167,11 @@ constexpr std::array kDeclarations = {
     // lower neighbour, off the boundary, and no lake. De Kok, van Kreveld, Loeffler 2007.
     Declaration{
         {Criterion::LocalMinima, "local-minima", "count", kMinimise, Coupling::Plateau, Combination::Count}},
+    // Its sum and its largest value are measures of smoothness in van Kreveld, Loeffler, Silveira,
+    // Optimization for first order Delaunay triangulations, 2010.
     Declaration{.traits = {Criterion::NormalAngleSum, "normal-angle-sum", "radians", kMinimise,
                            Coupling::Edge, Combination::Sum},
-                .of_angle = angle},
+                .of_angle = the_angle},
     Declaration{.traits = {Criterion::NormalAngleSquares, "normal-angle-squares", "radians^2", kMinimise,
                            Coupling::Edge, Combination::Sum},
                 .of_angle = angle_squared},

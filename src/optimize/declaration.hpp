@@ -16,6 +16,10 @@ using EdgeTerm = double (*)(const Face&, const Face&, Scale);
 /// The term of an interior edge, of the angle between the upward normals of its triangles, in radians; 0
 /// where the surface goes on flat.
 using AngleTerm = double (*)(double);
+/// The angle itself.
+inline double the_angle(double radians) {
+  return radians;
+}
 
 /// The same where it matters what is drawn: the TIN says which edges are drawn as what.
 using DrawnTriangleTerm = double (*)(const Face&, const Tin&);

@@ -6,6 +6,7 @@
 #include "optimize/ties.hpp"
 #include "optimize/vertex_terms.hpp"
 
+#include <thalweg/base/assert.hpp>
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
@@ -60,6 +61,7 @@ template <std::size_t Criteria>
 FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                           const OptimizeOptions& options, Progress& progress) {
   check_options(tin, options);
+  THALWEG_ASSERT(std::ranges::is_sorted(quadrilaterals, {}, &Quadrilateral::diagonal));
   FirstOrderProblem<Criteria> problem;
   const std::size_t leading = count_leading_pits(options.criteria);
   problem.pits_first = leading > 0;

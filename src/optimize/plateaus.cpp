@@ -68,20 +68,38 @@ class Finder {
   /// Marks a vertex that is in ROOT by itself; several threads may do so.
   void drain(VertexId v) { std::atomic_ref(node_[v.index()]).store(0, std::memory_order_relaxed); }
 
-  /// What an edge says of its ends; that both triangles have one owner means that it is a diagonal.
-  void look_at(HalfedgeId h, std::vector<VertexPair>& level) {
-    const HalfedgeId twin = tin_.twin(h);
-    if (twin.valid() && twin < h) return;
-    const VertexId a = tin_.origin(h), b = tin_.target(h);
-    if (!twin.valid()) {
-      drain(a);
-      drain(b);
-    } else if (const std::uint32_t q = owner_[Tin::triangle_of(h).index()];
-               q != kNone && q == owner_[Tin::triangle_of(twin).index()]) {
-      return;
+  /// What the sides of triangles say of the corners that they start at; what they say of their ends their
+  /// twins do. Whether one goes down is as good as random, so there is no branch: if it does not, a vertex
+  /// that was drained before is drained again.
+  void look_at(std::size_t begin, std::size_t end, std::vector<VertexPair>& level) {
+    const TinArrays tin = tin_.arrays();                          // stores do not change these
+    auto last = static_cast<std::uint32_t>(tin_.vertex_count());  // none
+    for (std::size_t t = begin; t < end; ++t) {
+      const std::uint32_t owner = owner_[t];
+      const HalfedgeId diagonal = owner == kNone ? HalfedgeId{} : quadrilaterals_[owner].diagonal;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const HalfedgeId h{3 * t + i}, twin = tin.twins[h.index()];
+        const VertexId a = tin.triangles[t][i], b = tin.triangles[t][i == 2 ? 0 : i + 1];
+        if (!twin.valid()) [[unlikely]] {
+          drain(a);
+          drain(b);
+          continue;
+        }
+        const double at_a = tin.heights[a.index()], at_b = tin.heights[b.index()];
+        const bool fixed = (h != diagonal) & (twin != diagonal);
+        const std::uint32_t falls =
+            static_cast<std::uint32_t>(fixed) & static_cast<std::uint32_t>(at_a > at_b);
+        last ^= (last ^ a.value()) & (0 - falls);
+        drain(VertexId{last});
+        if (at_a == at_b && fixed) [[unlikely]]
+          look_at_level(h, level);
+      }
     }
-    const double at_a = tin_.height(a), at_b = tin_.height(b);
-    if (at_a != at_b) return drain(at_a > at_b ? a : b);
+  }
+
+  void look_at_level(HalfedgeId h, std::vector<VertexPair>& level) {
+    if (!tin_.represents_edge(h)) return;
+    const VertexId a = tin_.origin(h), b = tin_.target(h);
     level.emplace_back(a.value(), b.value());
     if (!has(tin_.kind(h), EdgeKind::Lake)) return;
     drain(a);
@@ -89,14 +107,13 @@ class Finder {
   }
 
   void look_around(const Progress& progress) {
-    const std::size_t count = tin_.halfedge_count();
+    const std::size_t count = tin_.triangle_count();
     const std::vector<std::uint8_t> in_triangle = tin_.vertices_in_triangles();
-    node_.resize(tin_.vertex_count());
+    node_.resize(tin_.vertex_count() + 1);
     std::ranges::transform(in_triangle, node_.begin(), [](std::uint8_t in) { return in != 0 ? kNone : 0; });
     level_.resize((count + kBlock - 1) / kBlock);
-    for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t h = begin; h < end; ++h) look_at(HalfedgeId{h}, level_[begin / kBlock]);
-    });
+    for_each_block(count, kBlock, progress,
+                   [&](std::size_t begin, std::size_t end) { look_at(begin, end, level_[begin / kBlock]); });
   }
 
   /// Unites level neighbours; the sets' numbers are those of their first vertices in order.
@@ -119,21 +136,23 @@ class Finder {
   }
 
   [[nodiscard]] Link link_of(const Quadrilateral& quadrilateral) const {
-    const double lowest_kept = std::min(tin_.height(quadrilateral.u), tin_.height(quadrilateral.v));
-    const double lowest_new = std::min(tin_.height(quadrilateral.s), tin_.height(quadrilateral.t));
+    const auto& [s, u, t, v, diagonal] = quadrilateral;
+    const double lowest_kept = std::min(tin_.height(u), tin_.height(v));
+    const double lowest_new = std::min(tin_.height(s), tin_.height(t));
     if (lowest_kept == lowest_new) return {};
     const bool kept = lowest_kept < lowest_new;
-    VertexId low = kept ? quadrilateral.u : quadrilateral.s, high = kept ? quadrilateral.v : quadrilateral.t;
-    const bool level = tin_.height(high) == tin_.height(low);
-    if (level ? tin_.point(high) < tin_.point(low) : tin_.height(high) < tin_.height(low))
-      std::swap(low, high);
-    return {level ? node_[low.index()] : 0, node_[high.index()], kept ? Label::Zero : Label::One};
+    const VertexId a = kept ? u : s, b = kept ? v : t;
+    const double at_a = tin_.height(a), at_b = tin_.height(b);
+    const Label helpful = kept ? Label::Zero : Label::One;
+    if (at_a != at_b) return {0, node_[(at_a < at_b ? b : a).index()], helpful};
+    const bool ordered = tin_.point(a) < tin_.point(b);
+    return {node_[(ordered ? a : b).index()], node_[(ordered ? b : a).index()], helpful};
   }
 
   const Tin& tin_;
   std::span<const Quadrilateral> quadrilaterals_;
   std::span<const std::uint32_t> owner_;
-  std::vector<std::uint32_t> node_;             ///< by vertex
+  std::vector<std::uint32_t> node_;             ///< by vertex; the last is none
   std::vector<std::vector<VertexPair>> level_;  ///< by block of halfedges
   std::uint32_t node_count_ = 1;
 };

@@ -7,6 +7,9 @@
 
 #include <thalweg/base/error.hpp>
 
+#include <algorithm>
+#include <array>
+#include <numeric>
 #include <string>
 
 namespace thalweg {
@@ -35,26 +38,32 @@ double TermScan::left_on_rim(const Progress& progress) const {
          faces_.scale.vertical;
 }
 
+// Rows are filled without branches where there is room to write all that is across.
 TermScan::Rows TermScan::lay_out_rows(const Progress& progress) const {
   Rows rows;
   const std::size_t count = faces_.quadrilaterals.size();
   rows.first.assign(count + 1, 0);
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
+      std::uint32_t neighbours = 0;
       for (const Side& side : sides_of(faces_.tin, faces_.quadrilaterals[q])) {
-        rows.first[q + 1] += faces_.owner_across(side.inner) != kNone ? 1 : 0;
+        neighbours += static_cast<std::uint32_t>(faces_.owner_across(side.inner) != kNone);
       }
+      rows.first[q + 1] = neighbours;
     }
   });
-  for (std::size_t q = 0; q < count; ++q) rows.first[q + 1] += rows.first[q];
+  std::partial_sum(rows.first.begin(), rows.first.end(), rows.first.begin());
   rows.neighbour.resize(rows.first.back());
   for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
-      std::uint32_t at = rows.first[q];
+      std::array<std::uint32_t, 5> row;  // the last is written over
+      std::size_t neighbours = 0;
       for (const Side& side : sides_of(faces_.tin, faces_.quadrilaterals[q])) {
-        const std::uint32_t p = faces_.owner_across(side.inner);
-        if (p != kNone) rows.neighbour[at++] = p;
+        row[neighbours] = faces_.owner_across(side.inner);
+        neighbours += static_cast<std::size_t>(row[neighbours] != kNone);
       }
+      const bool room = rows.first[q] + 4 <= rows.first[end];
+      std::copy_n(row.begin(), room ? 4 : neighbours, rows.neighbour.begin() + rows.first[q]);
     }
   });
   return rows;

@@ -42,6 +42,7 @@ class TermScan {
 
  private:
   static constexpr std::size_t kBlock = 1024;
+  static constexpr std::size_t kEdgeBlock = 4096;  ///< triangles: larger, so that few neighbours are outside
 
   [[nodiscard]] double left_on_rim(const Progress& progress) const;
   [[nodiscard]] double of_triangle(const Declaration& declaration, const Face& face) const {
@@ -74,14 +75,9 @@ template <class Body, class Sink>
 void TermScan::scan_edges(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
                           const Progress& progress) const {
   tbb::enumerable_thread_specific<EdgeBatch<Body>> batches(faces_, declaration, first);
-  for_each_block(faces_.quadrilaterals.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+  for_each_block(faces_.tin.triangle_count(), kEdgeBlock, progress, [&](std::size_t begin, std::size_t end) {
     typename Sink::Block block(sink);
-    batches.local().pass_quadrilaterals(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-                                        block);
-  });
-  for_each_block(faces_.tin.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    typename Sink::Block block(sink);
-    batches.local().pass_triangles(begin, end, block);
+    batches.local().pass(begin, end, block);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kBlock = 4096;
+constexpr std::size_t kAhead = 16;  ///< what will be visited at random is asked for so much earlier
 
 std::uint64_t splitmix64(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
@@ -51,6 +53,8 @@ class CornerOrder {
   }
 
   using Key = std::pair<Point2, std::uint32_t>;
+
+  void prefetch_key(std::uint32_t q) const { prefetch(&lowest_[q]); }
 
   void sort(std::span<std::uint32_t> items, std::vector<Key>& keys) const {
     if (items.size() < 2) return;
@@ -110,11 +114,17 @@ std::vector<std::uint32_t> add_flips_and_ties(const Tin& tin, std::span<const Qu
   if (count == 0) return rank;
   const CornerOrder order(tin, quadrilaterals, progress);
   Buckets sorted = order.buckets();
+  const auto item_at = [&](std::size_t r) { return sorted.item[std::min(r, count - 1)]; };
   for_each_block(sorted.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::vector<CornerOrder::Key> keys;
-    for (std::size_t b = begin; b < end; ++b) order.sort(sorted.items(b), keys);
+    for (std::size_t b = begin; b < end; ++b) {
+      for (const std::size_t more : {0, 1}) order.prefetch_key(item_at(sorted.first[b] + kAhead + more));
+      order.sort(sorted.items(b), keys);
+    }
     for (std::size_t r = sorted.first[begin]; r < sorted.first[end]; ++r) {
-      const std::uint32_t q = sorted.item[r];
+      const std::uint32_t q = sorted.item[r], ahead = item_at(r + kAhead);
+      prefetch_to_write(&rank[ahead]);
+      prefetch_to_write(&unary[ahead]);
       rank[q] = static_cast<std::uint32_t>(r);
       unary[q].level[Criteria] = 1;
       unary[q].level[Criteria + 1] = tie_of(r, count);

@@ -64,7 +64,7 @@ struct OptimizeResult {
 /// is one triangulation, whatever the order of the input or the number of threads.
 ///
 /// Pre: the quadrilaterals are strictly convex, unconstrained pairs of triangles of the TIN, no two of which
-/// share a triangle. Heights are finite.
+/// share a triangle; ascending by diagonal. Heights are finite.
 /// Throws: Error{Usage} if a criterion is repeated or lacks its reference, a unit is not positive or the
 /// width limit is out of range; Error{SizeLimit} from 2^28 edges on; Error{Cancelled}. Complexity: linear but
 /// for pieces that stay wide, and 2^k for k quadrilaterals at a vertex where a criterion of vertices depends
