@@ -57,6 +57,25 @@ std::ptrdiff_t count_words(const std::string& text) {
   throw Error(ErrorCode::BadCoordinate, "\"" + text + "\" is no position: " + why);
 }
 
+// GeographicLib's decoder writes beyond its three parts where a colon follows the third.
+void check_parts(const std::string& text) {
+  constexpr std::string_view kBesideColons = "0123456789.:+-NSEWnsewdD*\xc2\xb0\xba";  // degree signs too
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string_view word = std::string_view(text).substr(begin, end - begin);
+    begin = end + 1;
+    if (word.find(':') == word.npos) continue;
+    if (word.find_first_not_of(kBesideColons) != word.npos) {
+      refuse(text, "minutes and seconds are parted by colons, or have marks of their own, not both");
+    }
+    std::size_t colons = 0;
+    for (const char c : word) {
+      colons = c == '+' || c == '-' ? 0 : colons + (c == ':' ? 1 : 0);
+      if (colons > 2) refuse(text, "nothing is finer than seconds");
+    }
+  }
+}
+
 void check_form(const std::string& text, PositionForm form) {
   constexpr std::ptrdiff_t kUtmWords = 3;
   switch (form) {
@@ -82,6 +101,7 @@ void check_form(const std::string& text, PositionForm form) {
 Point2 parse_position(std::span<const std::string_view> fields, PositionForm form) {
   const std::string text = joined(fields, form);
   check_form(text, form);
+  check_parts(text);
   try {
     constexpr bool kCentreOfSquare = true, kLongitudeFirst = true;
     const GeographicLib::GeoCoords position(text, kCentreOfSquare, kLongitudeFirst);

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace thalweg {
@@ -28,6 +29,7 @@ const FaceModel<Criteria>& FaceModeller<Criteria>::model(std::size_t face) {
   group_sides();
   for (std::uint32_t g = 0; g < model_.groups.size(); ++g) weigh(g);
   if (!links_.empty()) note_links();
+  refuse_overflow();
   return model_;
 }
 
@@ -72,7 +74,10 @@ void FaceModeller<Criteria>::weigh(std::uint32_t index) {
     for (const std::uint32_t t : model_.members(group)) {
       const std::size_t i = model_.index_of(t);
       const Weight<Criteria> more = terms_.of(model_.corners[i], outside);
-      for (std::size_t level = 0; level < Criteria; ++level) model_.own[i][level] += more[level];
+      for (std::size_t level = 0; level < Criteria; ++level) {
+        if (__builtin_add_overflow(model_.own[i][level], more[level], &model_.own[i][level]))
+          refuse_sums(level);
+      }
     }
   }
 }
@@ -107,6 +112,30 @@ void FaceModeller<Criteria>::weigh_pairs(FaceGroup& here, FaceGroup& there) {
     for (const std::uint32_t right : model_.members(there)) {
       model_.weights.push_back(terms_.of(of_left, model_.corners[model_.index_of(right)]));
     }
+  }
+}
+
+// A triangulation of the face has fewer than twice as many triangles as vertices, and three sides a triangle.
+template <std::size_t Criteria>
+void FaceModeller<Criteria>::refuse_overflow() {
+  for (std::size_t level = 0; level < Criteria; ++level) {
+    const auto most = [level](const std::vector<Weight<Criteria>>& weights) {
+      double largest = 0;
+      for (const auto& weight : weights)
+        largest = std::max(largest, std::abs(static_cast<double>(weight[level])));
+      return largest;
+    };
+    const double of_one = most(model_.own) + 3 * most(model_.weights);
+    // Candidates are three vertices each: most often that is enough.
+    if (of_one * 6 * static_cast<double>(model_.triangles.size()) < kMostSteps) continue;
+    vertices_.clear();
+    for (const std::uint32_t t : model_.triangles) {
+      const Triangle& corners = terms_.faces.triangles[t].corners;
+      vertices_.insert(vertices_.end(), corners.begin(), corners.end());
+    }
+    std::sort(vertices_.begin(), vertices_.end());
+    const auto end = std::unique(vertices_.begin(), vertices_.end());
+    if (of_one * 2 * static_cast<double>(end - vertices_.begin()) >= kMostSteps) refuse_sums(level);
   }
 }
 

@@ -97,7 +97,8 @@ class FaceModeller {
                std::span<const PlateauLink> links)
       : terms_(terms), sides_(sides), links_(links) {}
 
-  /// The model, until the next call. Complexity: pairs of candidates at the face's edges.
+  /// The model, until the next call. Throws: Error{SizeLimit} if sums over a triangulation of the face could
+  /// overflow. Complexity: pairs of candidates at the face's edges.
   const FaceModel<Criteria>& model(std::size_t face);
 
  private:
@@ -106,12 +107,14 @@ class FaceModeller {
   void weigh_coupled(FaceGroup& group, std::size_t first);
   void weigh_pairs(FaceGroup& here, FaceGroup& there);
   void note_links();
+  void refuse_overflow();
   [[nodiscard]] bool joins(const FaceGroup& group) const;
 
   const FaceTerms<Criteria>& terms_;
   const SideWeights<Criteria>& sides_;
   std::span<const PlateauLink> links_;
   FaceModel<Criteria> model_;
+  std::vector<VertexId> vertices_;      ///< scratch
   std::vector<std::uint64_t> entries_;  ///< in the upper half a side, then 3 times a triangle plus its corner
 };
 

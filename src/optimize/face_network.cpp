@@ -296,12 +296,7 @@ class Builder {
 
   void refuse_overflow() const {
     for (std::size_t level = 0; level < Criteria; ++level) {
-      if (most_at(level) < 0x1p62) continue;
-      throw Error(
-          ErrorCode::SizeLimit,
-          "the values of criterion " + std::to_string(level + 1) +
-              " are too large to be added exactly; split the area, or scale it by a small weight, such "
-              "as 0.001*edge-length");
+      if (most_at(level) >= kMostSteps) refuse_sums(level);
     }
   }
 

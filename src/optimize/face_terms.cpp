@@ -1,10 +1,13 @@
 // Terms of candidates, and which of them are at which side.
 #include "optimize/face_terms.hpp"
 
+#include <thalweg/base/error.hpp>
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 #include <tuple>
 
 namespace thalweg {
@@ -31,6 +34,14 @@ std::int64_t TermLevel::of(const Face& left, const Face& right, Scale scale, con
     sum += measure(part.factor * part.declaration->of_edge(left, right, scale, tin));
   }
   return sum;
+}
+
+void refuse_sums(std::size_t level) {
+  throw Error(
+      ErrorCode::SizeLimit,
+      "the values of criterion " + std::to_string(level + 1) +
+          " are too large to be added exactly; split the area, or scale it by a small weight, such as "
+          "0.001*edge-length");
 }
 
 TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit,

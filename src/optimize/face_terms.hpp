@@ -39,6 +39,11 @@ struct TermLevel {
 /// The level of an objective; without a limit also where it is an extreme: then for single terms only.
 TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit, const Reference* reference);
 
+/// Sums beyond it are refused: what is added to one that is smaller does not overflow.
+constexpr double kMostSteps = 0x1p62;
+/// Throws: Error{SizeLimit}: values of that level, from 0 on, are too large to be added exactly.
+[[noreturn]] void refuse_sums(std::size_t level);
+
 /// Where the sides of candidate triangles lead.
 struct FaceSides {
   std::vector<std::uint32_t> face;  ///< by triangle: the face that it is of, or kNoFace

@@ -62,6 +62,8 @@ TEST_F(ReadPositions, NamesTheRowOfWhatItCannotRead) {
           {"row 2", "11:70E"});
   refused("11:30E,95N,1\n", PositionForm::Dms, ErrorCode::BadCoordinate, {"row 1", "95"});
   refused("11:30E,12E,1\n", PositionForm::Dms, ErrorCode::BadCoordinate, {"row 1"});
+  refused("11:30E,4:7:15:9:1N,1\n", PositionForm::Dms, ErrorCode::BadCoordinate, {"row 1", "finer"});
+  refused("11:30E,4'7:15:9N,1\n", PositionForm::Dms, ErrorCode::BadCoordinate, {"row 1", "not both"});
   refused("32U 676000 5148000,1\n", PositionForm::Utm, ErrorCode::BadCoordinate, {"row 1", "32U"});
   refused("61N 500000 0,1\n", PositionForm::Utm, ErrorCode::BadCoordinate, {"row 1", "61"});
   refused("32TPS,1\n", PositionForm::Mgrs, ErrorCode::BadCoordinate, {"row 1", "10 km"});

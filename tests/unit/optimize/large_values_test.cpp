@@ -1,4 +1,5 @@
 // Sums at higher orders that are larger than what the solvers' integers hold.
+#include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/optimize/optimize_faces.hpp>
 #include <thalweg/order/useful_triangles.hpp>
@@ -12,8 +13,8 @@ namespace thalweg {
 namespace {
 
 TEST(LargeValues, OfEdgesAreBestAsSmallOnesAre) {
-  constexpr std::size_t kPoints = 1000, kOrder = 2;
-  constexpr double kSide = 1000, kLarge = 0x1p20;  // metres: 10^10 of edges, some 2^66 steps
+  constexpr std::size_t kPoints = 10000, kOrder = 2;
+  constexpr double kSide = 1000, kLarge = 0x1p14;  // metres: 3 * 10^9 of edges, more than 2^63 steps
   test::Random random;
   SCOPED_TRACE(random.trace());
   std::vector<Point2> points;
@@ -39,6 +40,22 @@ TEST(LargeValues, OfEdgesAreBestAsSmallOnesAre) {
     EXPECT_TRUE(small.triangles == large.triangles);
     for (const CriterionResult& line : large.criteria) EXPECT_TRUE(line.optimal) << line.name;
     EXPECT_NEAR(large.criteria.back().result / kLarge, small.criteria.back().result, 1e-3);
+  }
+}
+
+TEST(LargeValues, ThatOneFaceCannotAddAreRefused) {
+  const std::vector<Point2> points = {{0, 0},     {9e8, 1e8}, {1e9, 9e8}, {1e8, 1e9},
+                                      {4e8, 3e8}, {7e8, 6e8}, {3e8, 7e8}};
+  Progress progress;
+  const Tin tin = triangulate(points, std::vector<double>(points.size(), 0.0), {}, progress);
+  const auto faces = find_fixed_faces(
+      tin, find_useful_triangles(ConstrainedOrder(tin), {.max_order = 3}, progress), {}, progress);
+  ASSERT_TRUE(faces);
+  try {
+    optimize_faces(tin, *faces, {.common = {.criteria = {Criterion::EdgeLength}}}, progress);
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::SizeLimit) << error.what();
   }
 }
 
