@@ -11,10 +11,14 @@
 #include "base/union_find.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace thalweg::detail {
 
 namespace {
+
+/// Halfedges that are passed over together where none is of a constraint edge: few are.
+constexpr std::size_t kAtOnce = 48;
 
 // For p, a, b collinear, both other than p: whether a and b lie on the same side of p.
 bool same_direction(Point2 p, Point2 a, Point2 b) {
@@ -46,12 +50,19 @@ std::optional<Angle> intersect(Point2 p, Angle a, Angle b) {
 
 Ground::Ground(const Tin& tin, GroundMode mode)
     : tin_(&tin), mode_(mode), blocking_(tin.vertex_count(), false) {
-  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
-    const HalfedgeId h{i};
-    if (!blocks(h)) continue;
-    any_blocks_ = true;
-    blocking_[tin.origin(h).index()] = true;
-    blocking_[tin.target(h).index()] = true;
+  const std::span<const EdgeKind> kinds = tin.arrays().kinds;
+  for (std::size_t begin = 0; begin < kinds.size(); begin += kAtOnce) {
+    const std::size_t end = std::min(kinds.size(), begin + kAtOnce);
+    unsigned constrained = 0;
+    for (std::size_t i = begin; i < end; ++i) constrained |= static_cast<unsigned>(kinds[i]);
+    if (constrained == 0 && mode == GroundMode::Hull) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      const HalfedgeId h{i};
+      if (!blocks(h)) continue;
+      any_blocks_ = true;
+      blocking_[tin.origin(h).index()] = true;
+      blocking_[tin.target(h).index()] = true;
+    }
   }
   simple_polygons_ = mode == GroundMode::Polygon && find_simple_polygons();
 }

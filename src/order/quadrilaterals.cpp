@@ -216,8 +216,9 @@ bool QuadrilateralSearch::is_quadrilateral(const EdgeSurroundings& edge, Workspa
 void find_among(const QuadrilateralSearch& search, std::size_t begin, std::size_t end, Workspace& workspace,
                 std::vector<Quadrilateral>& found) {
   QuadrilateralFilter filter(search.ground(), search.refusing());
-  for (; begin < end; begin += QuadrilateralFilter::kMost) {
-    for (const EdgeSurroundings& edge : filter.look(begin, std::min(end, begin + filter.kMost))) {
+  constexpr std::size_t kMost = QuadrilateralFilter::kMost;
+  for (; begin < end; begin += kMost) {
+    for (const EdgeSurroundings& edge : filter.look(begin, std::min(end, begin + kMost))) {
       if (search.is_quadrilateral(edge, workspace)) found.push_back(edge.quadrilateral);
     }
   }
