@@ -278,11 +278,11 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   if (some_lack_heights) drape(survey, std::move(to_drape), options, drawing, heights, progress);
 
   Ground ground;
-  ground.mode = has_region(survey) ? GroundMode::Polygon : GroundMode::Hull;
   ground.pixel = drawing.noding.pixel;
   ground.duplicates_merged = survey.points.xy.size() - drawing.vertices.point_count;
   points_are_placed();
   std::vector<ConstraintEdge> edges = constraint_edges(survey, drawing);
+  ground.mode = has_region(survey, edges) ? GroundMode::Polygon : GroundMode::Hull;
 
   Plan plan{.xy = std::move(drawing.vertices.xy),
             .z = std::move(heights.z),

@@ -53,8 +53,11 @@ std::uint64_t toggles_at(std::span<const RingEdge> edges, VertexId a, VertexId b
 
 }  // namespace
 
-bool has_region(const Survey& survey) {
-  return std::any_of(survey.lines.begin(), survey.lines.end(), is_ring);
+bool has_region(const Survey& survey, std::span<const ConstraintEdge> edges) {
+  return std::ranges::any_of(survey.lines,
+                             [](const SurveyLine& line) { return has(line.kind, EdgeKind::Boundary); }) ||
+         std::ranges::any_of(edges,
+                             [](const ConstraintEdge& edge) { return has(edge.kind, EdgeKind::Hole); });
 }
 
 void check_rings(const Survey& survey, const MergedVertices& merged) {

@@ -19,8 +19,9 @@ struct RingEdge {
   std::uint64_t toggles = 0;
 };
 
-/// True if the survey has a line of kind Boundary or Hole.
-bool has_region(const Survey& survey);
+/// Whether the survey has a boundary, or a hole with an edge among the constraint edges: one that is no more
+/// than a point bounds nothing.
+bool has_region(const Survey& survey, std::span<const ConstraintEdge> edges);
 
 /// Throws: Error{WrongGeometry} naming the first ring of a boundary, hole or lake that is not closed.
 void check_rings(const Survey& survey, const MergedVertices& merged);

@@ -388,6 +388,16 @@ TEST(Ground, HolesAreCutOutEvenWhereTheyOverlap) {
   EXPECT_DOUBLE_EQ(area, 100 - 28);
 }
 
+TEST(Ground, AHoleThatIsAPointBoundsNothing) {
+  Survey survey = make_survey({{0, 0, 1}, {9, 0, 1}, {9, 9, 1}, {0, 9, 1}});
+  add_hard(survey, {{4, 4, 1}, {4, 4, 1}, {4, 4, 1}}, EdgeKind::Hole);
+  const Ground ground = build(survey);
+  EXPECT_EQ(ground.mode, GroundMode::Hull);
+  EXPECT_EQ(ground.tin.vertex_count(), 5U);
+  add_hard(survey, {{4, 4, 1}, {4, 4, 1}, {4, 4, 1}}, EdgeKind::Boundary);
+  EXPECT_EQ(code_of(survey), ErrorCode::EmptyInput);
+}
+
 TEST(Ground, RefusesBadRings) {
   Survey open = make_survey(kSquare);
   add_soft(open, {{2, 2}, {8, 2}, {8, 8}}, EdgeKind::Boundary);
