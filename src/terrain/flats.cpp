@@ -1,8 +1,8 @@
 // Plateaus.
 //
 // 1. A vertex without a step has no lower neighbour. (Water that leaves a vertex across a triangle runs
-//    towards a corner that is lower, so edges tell.)
-// 2. From each such vertex walk its plateau through level edges. If none of it has a lower neighbour or is an
+//    towards a corner that is lower, so edges tell.) If all are higher it is a pit by itself.
+// 2. From each other one walk its plateau through level edges. If none of it has a lower neighbour or is an
 //    outlet, it is a pit.
 // 3. If one has, a breadth-first search from all that have gives the others their rank; the next vertex on
 //    the way is the first by (x, y) of those with the rank below, so ids do not matter.
@@ -49,7 +49,7 @@ class Resolver {
     for (std::size_t i = 0; i < without_step.size(); ++i) {
       const VertexId v = without_step[i];
       if (i % kBlock == 0) progress.check();
-      if (is_settled(v) || !mesh_.in_a_triangle(v)) continue;
+      if (is_settled(v) || !steps_[v.index()].edge.valid()) continue;
       walk(v);
       front_.empty() ? add_pit() : rank_plateau();
     }
@@ -61,14 +61,20 @@ class Resolver {
     return drained_[v.index()] != 0 || flats_.rank[v.index()] != 0 || flats_.pit[v.index()] != kNoPit;
   }
 
+  template <class Visit>
+  void for_each_neighbour(VertexId v, const Visit& visit) const {
+    mesh_.for_each_neighbour(v, steps_[v.index()].edge, visit);
+  }
+
   // Up to the vertices that drain, which go to `front_`: other parts of the plateau may meet them too.
   void walk(VertexId start) {
     const double height = mesh_.height(start);
     plateau_.assign(1, start);
-    flats_.rank[start.index()] = kWaiting;
     front_.clear();
+    if (steps_[start.index()].squared_slope == kRises) return;
+    flats_.rank[start.index()] = kWaiting;
     for (std::size_t next = 0; next < plateau_.size(); ++next) {
-      mesh_.for_each_neighbour(plateau_[next], [&](VertexId w, HalfedgeId) {
+      for_each_neighbour(plateau_[next], [&](VertexId w, HalfedgeId) {
         if (mesh_.height(w) != height) return;
         if (drained_[w.index()] != 0) {
           front_.push_back(w);
@@ -89,7 +95,7 @@ class Resolver {
       flats_.rank[v.index()] = 0;
       flats_.pit[v.index()] = static_cast<std::uint32_t>(flats_.pits.size());
       if (plateau_.size() == 1) continue;
-      mesh_.for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
+      for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
         lake |= mesh_.height(w) == mesh_.height(v) && has(mesh_.kind(edge), EdgeKind::Lake);
       });
     }
@@ -108,7 +114,7 @@ class Resolver {
     for (std::uint32_t rank = 1; !front_.empty(); ++rank) {
       reached_.clear();
       for (const VertexId v : front_) {
-        mesh_.for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
+        for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
           if (mesh_.height(w) != height) return;
           std::uint32_t& known = flats_.rank[w.index()];
           const VertexStep step{.edge = edge, .kind = VertexStep::Kind::Edge};

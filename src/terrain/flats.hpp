@@ -17,6 +17,10 @@ namespace thalweg {
 
 constexpr std::uint32_t kNoPit = std::numeric_limits<std::uint32_t>::max();
 
+/// In place of a squared slope, at a vertex without a lower neighbour: of the way to one that is level, or,
+/// if all are higher, to one of them.
+constexpr double kLevel = -1, kRises = -2;
+
 /// Where a vertex sends its water.
 struct VertexStep {
   enum class Kind : std::uint8_t {
@@ -25,8 +29,8 @@ struct VertexStep {
     Edge,   ///< along `edge` to its other end
     Cross   ///< across a triangle, to `edge`, its side opposite of the vertex
   };
-  double squared_slope = -1;
-  HalfedgeId edge;
+  double squared_slope = -3;  ///< of a vertex without a lower neighbour kLevel or kRises, or no matter
+  HalfedgeId edge;            ///< if it stays: any that starts at it; invalid in no triangle
   Kind kind = Kind::Stay;
 };
 
@@ -49,7 +53,7 @@ struct Flats {
   LargeVector<std::uint8_t> on_rim;
 };
 
-/// `rim`: halfedges without twin. `steps`: of a vertex with a lower neighbour not Stay; those of vertices on
+/// `rim`: halfedges without twin. `steps`: as find_falls found them, outlets Stay; those of vertices on
 /// plateaus, each to the next on the way, the first by (x, y), are added. Pre: heights are finite.
 /// Complexity: linear.
 Flats resolve_flats(const FlowMesh& mesh, std::span<const VertexId> outlets, std::span<const HalfedgeId> rim,

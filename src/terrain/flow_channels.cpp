@@ -16,6 +16,7 @@
 #include "terrain/flow_graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <vector>
 
@@ -25,33 +26,51 @@ namespace {
 
 constexpr std::size_t kBlock = 8192;
 
+/// What is to be known of a side of a triangle: one bit each.
+enum SideBit : unsigned { kChannel = 1, kInflow = 1U << 3U, kMeeting = 1U << 6U, kStands = 1U << 9U };
+
+/// By how the triangle falls over the side, times 8, how the one beyond does, times 2 (none: Level), and 1 if
+/// the halfedge stands for the edge; so that there is no jump: all that cannot be foreseen.
+constexpr std::array<std::uint16_t, 32> tabulate_sides() {
+  std::array<std::uint16_t, 32> table{};
+  for (unsigned entry = 0; entry < table.size(); ++entry) {
+    const Fall fall{static_cast<std::uint8_t>(entry >> 3U)},
+        beyond{static_cast<std::uint8_t>(entry >> 1U & 3U)};
+    const bool stands = (entry & 1U) != 0;
+    const bool goes_on = fall == Fall::In || beyond == Fall::In;
+    const bool channel = (fall >= Fall::Out || beyond >= Fall::Out) && !goes_on;
+    const bool runs_out = fall == Fall::Out, comes_in = beyond == Fall::Out;
+    const bool one_ground = ((runs_out || comes_in) && goes_on) || (runs_out && comes_in);
+    table[entry] = static_cast<std::uint16_t>(
+        (channel ? kChannel : 0U) | (fall == Fall::In && comes_in ? kInflow : 0U) |
+        (stands && !one_ground ? kMeeting : 0U) | (stands && channel ? kStands : 0U));
+  }
+  return table;
+}
+
 /// Marks channels and inflow; of each block of triangles the halfedges that stand for a channel.
 std::vector<std::vector<HalfedgeId>> mark_channels(FlowGraph& graph, const Progress& progress) {
+  static constexpr std::array<std::uint16_t, 32> kSides = tabulate_sides();
   const FlowMesh& mesh = graph.mesh;
   std::vector<std::vector<HalfedgeId>> found(mesh.triangle_count() / kBlock + 1);
   for_each_block(mesh.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::vector<HalfedgeId> here(3 * (end - begin));
     std::size_t count = 0;
     for (std::size_t t = begin; t < end; ++t) {
-      const TriangleShape shape = graph.shape[t];
-      unsigned channels = 0, meet = 0, inflow = 0;
-      for (std::size_t side = 0; side < 3; ++side) {
+      const unsigned falls = graph.shape[t].falls;
+      unsigned sides = 0;
+      for (unsigned side = 0; side < 3; ++side) {
         const HalfedgeId h = Tin::halfedge(TriangleId{t}, side), twin = mesh.twin(h);
-        const Fall fall = shape.fall(side), beyond = twin.valid() ? graph.fall(twin) : Fall::Level;
-        const bool drains = (fall >= Fall::Out) | (beyond >= Fall::Out);
-        const bool goes_on = (fall == Fall::In) | (beyond == Fall::In);
-        const bool channel = drains & !goes_on;
-        channels |= (channel ? 1U : 0U) << side;
-        here[count] = h;  // without a jump: which edges are channels cannot be foreseen
-        count += (channel & (h < twin)) ? 1 : 0;  // no twin is greater than any
-        const bool runs_out = fall == Fall::Out, comes_in = beyond == Fall::Out;
-        const bool one_ground = ((runs_out | comes_in) & goes_on) | (runs_out & comes_in);
-        meet |= ((!one_ground & (h < twin)) ? 1U : 0U) << side;
-        inflow |= (((fall == Fall::In) & comes_in) ? 1U : 0U) << side;
+        const unsigned fall = falls >> (2 * side) & 3U;
+        const unsigned beyond = twin.valid() ? static_cast<unsigned>(graph.fall(twin)) : 0U;
+        const unsigned entry = kSides[fall << 3U | beyond << 1U | (h < twin ? 1U : 0U)];
+        here[count] = h;
+        count += entry / kStands;
+        sides |= entry << side;
       }
-      graph.inflow_sides[t] = static_cast<std::uint8_t>(inflow);
-      graph.channel_sides[t] = static_cast<std::uint8_t>(channels);
-      graph.meeting_sides[t] = static_cast<std::uint8_t>(meet);
+      graph.channel_sides[t] = static_cast<std::uint8_t>(sides & 7U);
+      graph.inflow_sides[t] = static_cast<std::uint8_t>(sides >> 3U & 7U);
+      graph.meeting_sides[t] = static_cast<std::uint8_t>(sides >> 6U & 7U);
     }
     found[begin / kBlock].assign(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(count));
   });

@@ -3,15 +3,17 @@
 // 1. Triangles in batches: loops over columns, without branches, give for each side the sign of its fall
 // where
 //    rounding cannot change it, where the line of flow through the middle corner meets the side across, and
-//    the squares of the slopes of the triangle and its sides. As in the scalar functions, of which these are
-//    copies, all operations are rounded correctly and none is fused, so the bits are the same. Triangles
+//    for each corner the steeper of its ways down in the triangle. As in the scalar functions, of which these
+//    are copies, all operations are rounded correctly and none is fused, so the bits are the same. Triangles
 //    whose angle at the lowest corner may let water round in a cycle (flow_channels.cpp) are listed.
-// 2. Triangles with a side that is not sure, or level, are looked at one by one, by the exact predicate.
+// 2. Triangles with a side that is not sure, or level, or ways that are equally steep, are looked at one by
+//    one, by the exact predicate.
 // 3. The steepest way down from each vertex is chosen: an edge, or the line of flow of a triangle over both
 // of
 //    whose sides at the vertex water enters. Ties: the end that is first by (x, y); so the order in which
-//    ways are offered does not matter. Triangles come by their smallest vertex: each part of them chooses for
-//    the vertices that are smallest in it, and keeps what it has for others until all parts are done.
+//    ways are offered does not matter. Where there is none, it is noted if a neighbour is level. Triangles
+//    come by their smallest vertex: each part of them chooses for the vertices that are smallest in it, and
+//    keeps what it has for others until all parts are done.
 #include "base/parallel.hpp"
 #include "terrain/flow_graph.hpp"
 
@@ -27,17 +29,20 @@ namespace {
 
 constexpr std::size_t kPart = 1U << 15U;  // of triangles: few of them have vertices of another part
 constexpr std::size_t kBatch = 128;       // columns of a page each would share the cache's sets
-constexpr double kNone = -2;              // a squared slope that is less than that of no step
 using Column = std::array<double, kBatch>;
 
-/// Triangles with corners a, b, c; sides are ab, bc, ca.
+/// Triangles with corners a, b, c; sides are ab, bc, ca. Of flags 1 is yes, 0 no.
 struct Batch {
   std::array<Column, 3> x, y, z;
   std::array<Column, 3> fall;  ///< over each side: positive out, negative in, 0 not sure
   Column split_at, area;
-  std::array<Column, 3> down;  ///< squared slope of each side that falls, from its origin; else kNone
-  Column slope;                ///< squared
-  Column obtuse;  ///< 1 if one side is In, and the corner across is not the lowest of all; else 0
+  std::array<Column, 3> down;      ///< squared slope of each side that falls; else kLevel or kRises
+  Column slope;                    ///< squared
+  std::array<Column, 3> steepest;  ///< of both ways down from each corner
+  std::array<Column, 3> crosses;   ///< that is the line of flow across the triangle, not the side
+  Column doubt;   ///< there is no telling by these numbers how it falls, or which is steepest
+  Column shape;   ///< the bits of a TriangleShape
+  Column obtuse;  ///< one side is In, and the corner across is not the lowest of all
 };
 
 struct Corner {
@@ -59,9 +64,8 @@ inline double squared_slope(const Corner& a, const Corner& b) {
 // Never at an end, whatever rounding says: then both sides have ground, and lines end where others begin.
 inline double inner_share(double share) {
   constexpr double kLeast = 0x1p-50;
-  const double bounded = share > 1 ? 1 : share < 0 ? 0 : share;
-  const double known = share == share ? bounded : 0.5;
-  return known < kLeast ? kLeast : known > 1 - kLeast ? 1 - kLeast : known;
+  const double bounded = std::min(std::max(share, kLeast), 1 - kLeast);
+  return share == share ? bounded : 0.5;
 }
 
 // The choice is made before sanitizers are ready.
@@ -84,9 +88,11 @@ void measure(Batch& batch) {
   }
   for (std::size_t i = 0; i < kBatch; ++i) {
     const auto [a, b, c] = corners(i);
-    batch.down[0][i] = b.z < a.z ? squared_slope(a, b) : kNone;
-    batch.down[1][i] = c.z < b.z ? squared_slope(b, c) : kNone;
-    batch.down[2][i] = a.z < c.z ? squared_slope(c, a) : kNone;
+    const double ab = a.z == b.z ? kLevel : kRises, bc = b.z == c.z ? kLevel : kRises;
+    const double ca = c.z == a.z ? kLevel : kRises;
+    batch.down[0][i] = b.z < a.z ? squared_slope(a, b) : ab;
+    batch.down[1][i] = c.z < b.z ? squared_slope(b, c) : bc;
+    batch.down[2][i] = a.z < c.z ? squared_slope(c, a) : ca;
   }
   for (std::size_t i = 0; i < kBatch; ++i) {
     const auto [a, b, c] = corners(i);
@@ -111,9 +117,32 @@ void measure(Batch& batch) {
     const double over_ab = c < std::min(a, b) ? 0.0 : 1.0, over_bc = a < std::min(b, c) ? 0.0 : 1.0;
     const double over_ca = b < std::min(c, a) ? 0.0 : 1.0;
     const double ab = batch.fall[0][i] < 0 ? 1.0 : 0.0, bc = batch.fall[1][i] < 0 ? 1.0 : 0.0;
-    const double ca = batch.fall[2][i] < 0 ? 1.0 : 0.0;
-    const double obtuse = ab * over_ab + bc * over_bc + ca * over_ca;
-    batch.obtuse[i] = ab + bc + ca == 1 ? obtuse : 0.0;
+    const double ca = batch.fall[2][i] < 0 ? 1.0 : 0.0, count = ab + bc + ca;
+    const double low_corner = count == 1 ? 1.0 : 0.0, high_corner = count == 2 ? 1.0 : 0.0;
+    batch.obtuse[i] = low_corner * (ab * over_ab + bc * over_bc + ca * over_ca);
+    const double at_bc = bc == low_corner ? 64.0 : 128.0, split = ab == low_corner ? 0.0 : at_bc;
+    batch.shape[i] = 42 - ab - 4 * bc - 16 * ca + split + 256 * low_corner;
+    const double of_ab = batch.fall[0][i] == 0 ? 1.0 : 0.0, of_bc = batch.fall[1][i] == 0 ? 1.0 : 0.0;
+    const double of_ca = batch.fall[2][i] == 0 ? 1.0 : 0.0;
+    batch.doubt[i] = std::max(of_ab, std::max(of_bc, of_ca));
+    // From the corner across the only side that is Out.
+    batch.crosses[0][i] = high_corner * (1 - bc);
+    batch.crosses[1][i] = high_corner * (1 - ca);
+    batch.crosses[2][i] = high_corner * (1 - ab);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      const double slope = batch.slope[i], across = batch.crosses[k][i] != 0 ? slope : kRises;
+      batch.steepest[k][i] = across;
+    }
+    for (std::size_t i = 0; i < kBatch; ++i) {
+      const double along = batch.down[k][i], across = batch.steepest[k][i], doubt = batch.doubt[i];
+      const double over = across > along ? 1.0 : 0.0, under = across < along ? 1.0 : 0.0;
+      const double none = along <= kLevel ? 1.0 : 0.0;
+      batch.doubt[i] = over + under + none != 0 ? doubt : 1.0;
+      batch.crosses[k][i] = over;
+      batch.steepest[k][i] = across > along ? across : along;
+    }
   }
 }
 
@@ -156,7 +185,7 @@ class FallFinder {
         store(t, stop, batch, part);
         for (std::size_t i = t; i < stop; ++i) {
           part.obtuse[obtuse] = TriangleId{i};
-          obtuse += static_cast<std::size_t>(static_cast<int>(batch.obtuse[i - t]));
+          obtuse += integer(batch.obtuse[i - t]);
         }
       }
       part.obtuse.resize(obtuse);
@@ -170,6 +199,7 @@ class FallFinder {
       graph_.obtuse.insert(graph_.obtuse.end(), part.obtuse.begin(), part.obtuse.end());
     }
     for (const HalfedgeId h : graph_.rim) offer_upwards(h);
+    graph_.mesh.link_fans(graph_.rim);
   }
 
  private:
@@ -190,21 +220,35 @@ class FallFinder {
     }
   }
 
+  static unsigned integer(double value) { return static_cast<unsigned>(static_cast<int>(value)); }
+
   void store(std::size_t begin, std::size_t end, Batch& batch, Part& part) {
     for (std::size_t t = begin; t < end; ++t) {
       const std::size_t i = t - begin;
-      const double ab = batch.fall[0][i], bc = batch.fall[1][i], ca = batch.fall[2][i];
-      if ((ab != 0) & (bc != 0) & (ca != 0)) {
-        const auto over = [](double fall) { return fall < 0 ? Fall::In : Fall::Out; };
-        graph_.shape[t] = shape_of({over(ab), over(bc), over(ca)});
-        graph_.strips[t].at = batch.split_at[i];
-      } else {
-        look_at(TriangleId{t});
-        batch.obtuse[i] = graph_.shape[t].corner_is_low;  // not sure
+      graph_.strips[t] = {batch.split_at[i], batch.area[i]};
+      graph_.shape[t] = shape_of(integer(batch.shape[i]));
+      if (batch.doubt[i] != 0) {
+        look_at(TriangleId{t}, batch, i, part);
+        continue;
       }
-      graph_.strips[t].area = batch.area[i];
-      offer(TriangleId{t}, batch, i, part);
+      const Triangle& c = mesh_.triangle(TriangleId{t});
+      for (unsigned side = 0; side < 3; ++side) {
+        const double slope = batch.steepest[side][i];
+        const unsigned crosses = integer(batch.crosses[side][i]);
+        const std::array<unsigned, 2> edge = {side, kNextSide[side]};
+        const std::array<VertexStep::Kind, 4> kind = {VertexStep::Kind::Stay, VertexStep::Kind::Stay,
+                                                      VertexStep::Kind::Edge, VertexStep::Kind::Cross};
+        offer(c[side],
+              {slope, Tin::halfedge(TriangleId{t}, edge[crosses]), kind[(slope >= 0 ? 2 : 0) + crosses]},
+              part);
+      }
     }
+  }
+
+  static TriangleShape shape_of(unsigned bits) {
+    return {.falls = static_cast<std::uint16_t>(bits & 63U),
+            .split = static_cast<std::uint16_t>(bits >> 6U & 3U),
+            .corner_is_low = static_cast<std::uint16_t>(bits >> 8U & 1U)};
   }
 
   /// The odd one of three sides is split.
@@ -221,7 +265,26 @@ class FallFinder {
             .corner_is_low = one};
   }
 
-  void look_at(TriangleId t) {
+  void look_at(TriangleId t, Batch& batch, std::size_t i, Part& part) {
+    if (batch.fall[0][i] == 0 || batch.fall[1][i] == 0 || batch.fall[2][i] == 0) {
+      find_shape(t);
+      batch.obtuse[i] = graph_.shape[t.index()].corner_is_low;  // not sure
+    }
+    const Triangle& c = mesh_.triangle(t);
+    for (std::size_t side = 0; side < 3; ++side) {
+      const double down = batch.down[side][i],
+                   slope = down == down ? down : kLevel;  // wider than all numbers
+      offer(c[side],
+            {slope, Tin::halfedge(t, side), slope >= 0 ? VertexStep::Kind::Edge : VertexStep::Kind::Stay},
+            part);
+    }
+    const TriangleShape shape = graph_.shape[t.index()];
+    if (shape.level() || shape.corner_is_low != 0) return;
+    const HalfedgeId across = Tin::halfedge(t, shape.split);
+    offer(c[kPreviousSide[shape.split]], {batch.slope[i], across, VertexStep::Kind::Cross}, part);
+  }
+
+  void find_shape(TriangleId t) {
     const Triangle& c = mesh_.triangle(t);
     graph_.shape[t.index()] = {};
     if (mesh_.height(c[0]) == mesh_.height(c[1]) && mesh_.height(c[1]) == mesh_.height(c[2])) return;
@@ -243,27 +306,18 @@ class FallFinder {
     graph_.strips[t.index()].at = strip.at;
   }
 
-  void offer(TriangleId t, const Batch& batch, std::size_t i, Part& part) {
-    const Triangle& c = mesh_.triangle(t);
-    const auto choose_or_keep = [&](VertexId v, const VertexStep& step) {
-      if (v >= part.begin && v < part.end) {
-        choose(v, step);
-      } else if (step.squared_slope >= 0) {
-        part.ways.push_back({v, step});
-      }
-    };
-    for (std::size_t side = 0; side < 3; ++side) {
-      choose_or_keep(c[side], {batch.down[side][i], Tin::halfedge(t, side), VertexStep::Kind::Edge});
+  [[gnu::always_inline]] void offer(VertexId v, const VertexStep& step, Part& part) {
+    if (v >= part.begin && v < part.end) {
+      choose(v, step);
+    } else {
+      part.ways.push_back({v, step});
     }
-    const TriangleShape shape = graph_.shape[t.index()];
-    if (shape.level() || shape.corner_is_low != 0) return;
-    const HalfedgeId across = Tin::halfedge(t, shape.split);
-    choose_or_keep(c[kPreviousSide[shape.split]], {batch.slope[i], across, VertexStep::Kind::Cross});
   }
 
   // What falls against the direction of its only halfedge.
   void offer_upwards(HalfedgeId h) {
     const VertexId low = mesh_.origin(h), high = mesh_.target(h);
+    if (mesh_.height(low) == mesh_.height(high)) choose(high, {kLevel, h, VertexStep::Kind::Stay});
     if (!(mesh_.height(low) < mesh_.height(high))) return;
     const Point2 p = mesh_.point(low), q = mesh_.point(high);
     const double slope = squared_slope({q.x, q.y, mesh_.height(high)}, {p.x, p.y, mesh_.height(low)});
@@ -271,35 +325,31 @@ class FallFinder {
   }
 
   // Without a jump where they differ: which is steeper cannot be foreseen.
-  void choose(VertexId v, const VertexStep& step) {
+  [[gnu::always_inline]] void choose(VertexId v, const VertexStep& step) {
     VertexStep& best = graph_.step[v.index()];
-    if (step.squared_slope == best.squared_slope) {
-      if (step.squared_slope >= 0 && !goes_before(v, best, step)) best = step;
+    if ((step.squared_slope == best.squared_slope) & (step.squared_slope >= 0)) {
+      if (!goes_before(v, best, step)) best = step;
       return;
     }
     const bool steeper = step.squared_slope > best.squared_slope;
-    best.squared_slope = steeper ? step.squared_slope : best.squared_slope;
-    best.edge = steeper ? step.edge : best.edge;
-    best.kind = steeper ? step.kind : best.kind;
+    const std::uint32_t take = steeper ? 0xffffffffU : 0U;
+    best.squared_slope = std::max(best.squared_slope, step.squared_slope);
+    best.edge = HalfedgeId{(step.edge.value() & take) | (best.edge.value() & ~take)};
+    const auto kind = [](const VertexStep& s) { return static_cast<std::uint32_t>(s.kind); };
+    best.kind = static_cast<VertexStep::Kind>((kind(step) & take) | (kind(best) & ~take));
   }
 
   // Where both are equally steep.
   [[nodiscard]] bool goes_before(VertexId v, const VertexStep& a, const VertexStep& b) const {
     const Point2 p = end_of(v, a), q = end_of(v, b);
     if (p != q) return p < q;
-    const HalfedgeId g = mesh_.given(out_of(v, a)), h = mesh_.given(out_of(v, b));
+    const HalfedgeId g = mesh_.given(mesh_.out_of(v, a.edge)), h = mesh_.given(mesh_.out_of(v, b.edge));
     return h < g || (g == h && a.kind == VertexStep::Kind::Cross);
   }
 
   [[nodiscard]] Point2 end_of(VertexId v, const VertexStep& step) const {
     if (step.kind == VertexStep::Kind::Edge) return mesh_.point(graph_.neighbour(v, step));
     return std::min(mesh_.point(mesh_.origin(step.edge)), mesh_.point(mesh_.target(step.edge)));
-  }
-
-  /// The halfedge that starts at v in the step's triangle.
-  [[nodiscard]] HalfedgeId out_of(VertexId v, const VertexStep& step) const {
-    if (step.kind == VertexStep::Kind::Cross) return Tin::previous(step.edge);
-    return mesh_.origin(step.edge) == v ? step.edge : Tin::next(step.edge);
   }
 
   FlowGraph& graph_;

@@ -9,7 +9,6 @@
 #include "delaunay/spatial_order.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -54,32 +53,21 @@ FlowMesh::FlowMesh(const Tin& tin, const Progress& progress)
     triangles_ = moved_triangles_;
     twins_ = moved_twins_;
   }
-  find_first_out(progress);
 }
 
-void FlowMesh::find_first_out(const Progress& progress) {
-  first_out_.assign(vertex_count(), HalfedgeId{});
-  std::mutex mutex;
-  for_each_range(vertex_count(), progress, [&](std::size_t begin, std::size_t end) {
-    const VertexId low{begin}, limit{end};
-    std::vector<HalfedgeId> more;
-    for (std::size_t i = 0; i < halfedge_count(); ++i) {
-      const HalfedgeId h{i};
-      const VertexId v = triangles_[i / 3][i % 3];
-      if (v < low || v >= limit) continue;
-      HalfedgeId& first = first_out_[v.index()];
-      if (!on_rim(h)) {
-        if (!first.valid()) first = h;
-      } else if (first.valid() && on_rim(first)) {
-        more.push_back(h);
-      } else {
-        first = h;
-      }
-    }
-    const std::scoped_lock lock(mutex);
-    more_out_.insert(more_out_.end(), more.begin(), more.end());
-  });
-  std::ranges::sort(more_out_, {}, [this](HalfedgeId h) { return std::pair(origin(h), h); });
+void FlowMesh::link_fans(std::span<const HalfedgeId> rim) {
+  more_fans_.assign(rim.begin(), rim.end());
+  std::ranges::sort(more_fans_, {}, [this](HalfedgeId h) { return std::pair(origin(h), h); });
+  const auto stands_alone = [&](std::size_t i) {
+    const VertexId v = origin(more_fans_[i]);
+    const bool before = i > 0 && origin(more_fans_[i - 1]) == v;
+    return !before && !(i + 1 < more_fans_.size() && origin(more_fans_[i + 1]) == v);
+  };
+  std::vector<HalfedgeId> several;
+  for (std::size_t i = 0; i < more_fans_.size(); ++i) {
+    if (!stands_alone(i)) several.push_back(more_fans_[i]);
+  }
+  more_fans_ = std::move(several);
 }
 
 void FlowMesh::number_vertices(const Progress& progress) {

@@ -3,6 +3,7 @@
 /// The triangles of a TIN, numbered so that what is near in the plane is near in memory.
 
 #include "base/large_pages.hpp"
+#include "base/prefetch.hpp"
 
 #include <thalweg/base/progress.hpp>
 #include <thalweg/mesh/tin.hpp>
@@ -35,6 +36,8 @@ class FlowMesh {
   [[nodiscard]] VertexId target(HalfedgeId h) const { return origin(Tin::next(h)); }
   [[nodiscard]] VertexId apex(HalfedgeId h) const { return origin(Tin::previous(h)); }
   [[nodiscard]] HalfedgeId twin(HalfedgeId h) const { return twins_[h.index()]; }
+  /// Asks for the memory that `twin` needs.
+  void ask_for_twin(HalfedgeId h) const { prefetch(&twins_[h.index()]); }
   [[nodiscard]] bool on_rim(HalfedgeId h) const { return !twin(h).valid(); }
   [[nodiscard]] EdgeKind kind(HalfedgeId h) const { return tin_.kind(given(h)); }
 
@@ -52,38 +55,47 @@ class FlowMesh {
   /// True if the numbers are the TIN's.
   [[nodiscard]] bool same() const { return given_vertex_.empty(); }
 
-  [[nodiscard]] bool in_a_triangle(VertexId v) const { return first_out_[v.index()].valid(); }
-  /// Calls `visit(halfedge)` for each halfedge that starts at v, in no promised order.
-  template <class Visit>
-  void for_each_out(VertexId v, const Visit& visit) const {
-    if (!in_a_triangle(v)) return;
-    turn_from(first_out_[v.index()], visit);
-    auto more = std::ranges::lower_bound(more_out_, v, {}, [this](HalfedgeId h) { return origin(h); });
-    for (; more != more_out_.end() && origin(*more) == v; ++more) turn_from(*more, visit);
+  /// The halfedge that starts at v, a corner of the halfedge's triangle, and goes round it.
+  [[nodiscard]] HalfedgeId out_of(VertexId v, HalfedgeId h) const {
+    return origin(h) == v ? h : target(h) == v ? Tin::next(h) : Tin::previous(h);
   }
-  /// Calls `visit(neighbour, halfedge of the edge)` for each neighbour; those on interior edges once.
+  /// Calls `visit(neighbour, halfedge of the edge)` for each neighbour, in no promised order; those on
+  /// interior edges once. `h`: of any triangle at v. Pre: link_fans.
   template <class Visit>
-  void for_each_neighbour(VertexId v, const Visit& visit) const {
-    for_each_out(v, [&](HalfedgeId out) {
-      visit(target(out), out);
-      const HalfedgeId in = Tin::previous(out);
-      if (on_rim(in)) visit(origin(in), in);
-    });
+  void for_each_neighbour(VertexId v, HalfedgeId h, const Visit& visit) const {
+    const HalfedgeId first = first_of_fan(out_of(v, h));
+    if (!on_rim(first)) return turn_from(first, visit);
+    const auto fans =
+        std::ranges::equal_range(more_fans_, v, {}, [this](HalfedgeId fan) { return origin(fan); });
+    if (fans.empty()) return turn_from(first, visit);
+    for (const HalfedgeId fan : fans) turn_from(fan, visit);
   }
+  /// Notes at which vertices several fans of triangles meet. `rim`: all halfedges without twin.
+  void link_fans(std::span<const HalfedgeId> rim);
 
  private:
   void number_vertices(const Progress& progress);
   void number_triangles(const Progress& progress);
   void link_triangles(const Progress& progress);
-  void find_first_out(const Progress& progress);
+  /// Clockwise from `out` the last halfedge from its vertex, which is on the rim; or `out`, if none is.
+  [[nodiscard]] HalfedgeId first_of_fan(HalfedgeId out) const {
+    HalfedgeId h = out;
+    while (!on_rim(h)) {
+      h = Tin::next(twin(h));
+      if (h == out) break;
+    }
+    return h;
+  }
   /// Counter-clockwise through one fan. Pre: `start` is on the rim, or no halfedge of its vertex is.
   template <class Visit>
   void turn_from(HalfedgeId start, const Visit& visit) const {
     HalfedgeId h = start;
     do {
-      visit(h);
-      h = twin(Tin::previous(h));
-    } while (h.valid() && h != start);
+      visit(target(h), h);
+      const HalfedgeId in = Tin::previous(h);
+      if (on_rim(in)) return visit(origin(in), in);
+      h = twin(in);
+    } while (h != start);
   }
 
   const Tin& tin_;
@@ -93,8 +105,7 @@ class FlowMesh {
   std::span<const HalfedgeId> twins_;
   RawVector<VertexId> given_vertex_, own_vertex_;
   RawVector<TriangleId> given_triangle_, own_triangle_;
-  RawVector<HalfedgeId> first_out_;   // by vertex: a halfedge that starts there, on the rim if one is
-  std::vector<HalfedgeId> more_out_;  // by their origins: the others on the rim, where several fans meet
+  std::vector<HalfedgeId> more_fans_;  // by their origins: those on the rim from where several fans meet
   RawVector<Point2> moved_points_;
   RawVector<double> moved_heights_;
   RawVector<Triangle> moved_triangles_;

@@ -70,7 +70,7 @@ class StepFinder {
     const auto key = [&](VertexId w) { return std::tuple(mesh_.height(w), mesh_.point(w)); };
     VertexId lowest = v;
     VertexStep step{.kind = Kind::Edge};
-    mesh_.for_each_neighbour(v, [&](VertexId w, HalfedgeId edge) {
+    mesh_.for_each_neighbour(v, graph_.step[v.index()].edge, [&](VertexId w, HalfedgeId edge) {
       if (!(key(w) < key(lowest))) return;
       lowest = w;
       step.edge = edge;

@@ -9,6 +9,7 @@
 //    which could not be foreseen.
 // 3. Water on a level triangle comes to its low corner.
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "terrain/flow_graph.hpp"
 
 #include <algorithm>
@@ -142,6 +143,7 @@ class Sweep {
 
   void load(std::size_t begin, std::size_t end) {
     for (std::size_t i = 0; begin + i < end; ++i) {
+      if (begin + i + kBatch < count_) ask_for(streams_[begin + i + kBatch].side);
       const Stream& stream = streams_[begin + i];
       const std::size_t t = stream.side.index() / 3, side = stream.side.index() - 3 * t;
       const TriangleShape shape = graph_.shape[t];
@@ -153,6 +155,14 @@ class Sweep {
       batch_.low_corner[i] = low_corner;
       batch_.before[i] = low_corner & (side == kPreviousSide[shape.split] ? 1 : 0);
     }
+  }
+
+  /// What a strip that comes to its turn in the next batch will need.
+  void ask_for(HalfedgeId side) const {
+    prefetch(&graph_.strips[side.index() / 3]);
+    prefetch(&graph_.shape[side.index() / 3]);
+    prefetch(&graph_.target[side.index()]);
+    graph_.mesh.ask_for_twin(side);
   }
 
   void climb(const Stream& stream, std::size_t i) {

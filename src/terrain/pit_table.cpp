@@ -44,7 +44,8 @@ using Edge = std::array<VertexId, 2>;
 
 /// The passes in a block of triangles.
 struct PassList {
-  RawVector<Edge> edges;  ///< the first `count` of them
+  RawVector<TriangleId> triangles;  ///< those with corners in several basins come first
+  RawVector<Edge> edges;            ///< the first `count` of them
   std::size_t count = 0;
   std::vector<Pass> passes;
 };
@@ -138,20 +139,24 @@ class Tabulator {
   /// Lists the edges between two basins, of the two triangles beside each for one; without a jump: which they
   /// are cannot be foreseen.
   void list_edges(std::size_t begin, std::size_t end, PassList& list) const {
-    list.edges.resize(3 * (end - begin) + 1);
-    std::size_t count = 0;
+    list.triangles.resize(end - begin);
+    std::size_t between = 0;
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& c = mesh_.triangle(TriangleId{t});
-      const std::array<std::uint32_t, 3> basin = {basin_[c[0].index()], basin_[c[1].index()],
-                                                  basin_[c[2].index()]};
+      const std::uint32_t first = basin_[c[0].index()];
+      list.triangles[between] = TriangleId{t};
+      between += ((first != basin_[c[1].index()]) | (first != basin_[c[2].index()])) ? 1 : 0;
+    }
+    list.edges.resize(3 * between + 1);
+    list.count = 0;
+    for (std::size_t i = 0; i < between; ++i) {
+      const Triangle& c = mesh_.triangle(list.triangles[i]);
       for (std::size_t side = 0; side < 3; ++side) {
-        const std::size_t next = kNextSide[side];
-        const bool ascends = c[side] < c[next], differ = basin[side] != basin[next];
-        list.edges[count] = {c[side], c[next]};
-        count += (differ & ascends) ? 1 : 0;
+        const VertexId v = c[side], w = c[kNextSide[side]];
+        list.edges[list.count] = {v, w};
+        list.count += ((basin_[v.index()] != basin_[w.index()]) & (v < w)) ? 1 : 0;
       }
     }
-    list.count = count;
   }
 
   [[nodiscard]] Pass pass_over(const Edge& edge) const {
@@ -244,10 +249,13 @@ class Tabulator {
   }
 
   void measure_all(Progress& progress) {
-    std::vector<double> level = {-std::numeric_limits<double>::infinity()};
-    for (const Pit& pit : table_.pits) level.push_back(pit.spill_height);
-    const std::vector<Water> water =
-        measure_water(graph_, {.of_vertex = basin_, .level = level, .met_by = met_by_}, progress);
+    std::vector<double> level = {-std::numeric_limits<double>::infinity()}, fill_level = level;
+    for (const Pit& pit : table_.pits) {
+      level.push_back(pit.spill_height);
+      fill_level.push_back(pit.fill_height);
+    }
+    const std::vector<Water> water = measure_water(
+        graph_, {.of_vertex = basin_, .level = level, .fill_level = fill_level, .met_by = met_by_}, progress);
     for (std::size_t i = 0; i < table_.pits.size(); ++i) fill_in(table_.pits[i], water[i + 1]);
   }
 

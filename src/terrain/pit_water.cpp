@@ -3,13 +3,15 @@
 // 1. A vertex is under the water of a pit if it is lower than the level and its own basin is one of those
 //    that the pit has met below that level, or its own: along the path of its water it is connected to the
 //    bottom below its own height. Two corners of a triangle that are lower than the level are connected
-//    by an edge, so the lowest corner tells of which pits a triangle holds water.
+//    by an edge, so the lowest corner tells of which pits a triangle holds water. It holds none unless a
+//    corner is lower than where the last of the pits of its basin fills: so most triangles are left out.
 // 2. A triangle counts as far as it is submerged, cut along its shore: in batches, in loops over columns
 //    without branches.
 // 3. What blocks of triangles hold is added up in their order, so sums do not depend on threads.
 #include "terrain/pit_water.hpp"
 
 #include "base/ordered_blocks.hpp"
+#include "base/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -64,6 +66,7 @@ struct Submerged {
 
 /// What a block of triangles holds.
 struct Held {
+  RawVector<TriangleId> wet;  ///< those that may hold any
   RawVector<Submerged> parts;
   std::size_t count = 0;
   RawVector<Water> water;  ///< of each part
@@ -71,7 +74,14 @@ struct Held {
 
 class Gauge {
  public:
-  Gauge(const FlowGraph& graph, const Basins& basins) : graph_(graph), mesh_(graph.mesh), basins_(basins) {}
+  Gauge(const FlowGraph& graph, const Basins& basins, const Progress& progress)
+      : graph_(graph), mesh_(graph.mesh), basins_(basins), wet_(mesh_.vertex_count()) {
+    for_each_block(wet_.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        wet_[v] = mesh_.height(VertexId{v}) < basins_.fill_level[basins_.of_vertex[v]] ? 1 : 0;
+      }
+    });
+  }
 
   void look_at(std::size_t begin, std::size_t end, Held& held) const {
     list_parts(begin, end, held);
@@ -86,24 +96,30 @@ class Gauge {
   }
 
  private:
-  // Without a jump for the first basin: whether a triangle is under water cannot be foreseen.
+  // Without a jump: which triangles have a corner under water cannot be foreseen.
   void list_parts(std::size_t begin, std::size_t end, Held& held) const {
-    held.count = 0;
+    held.wet.resize(end - begin);
+    std::size_t wet = 0;
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& c = mesh_.triangle(TriangleId{t});
+      held.wet[wet] = TriangleId{t};
+      wet += wet_[c[0].index()] | wet_[c[1].index()] | wet_[c[2].index()];
+    }
+    held.count = 0;
+    for (std::size_t i = 0; i < wet; ++i) {
+      const Triangle& c = mesh_.triangle(held.wet[i]);
       const double p = mesh_.height(c[0]), q = mesh_.height(c[1]), r = mesh_.height(c[2]);
       const double lower = std::min(p, q), lowest = std::min(lower, r);
       const std::size_t which = r < lower ? 2 : q < p ? 1 : 0;
-      std::uint32_t basin = basins_.of_vertex[c[which].index()];
       double before = -std::numeric_limits<double>::infinity();
-      do {
+      for (std::uint32_t basin = basins_.of_vertex[c[which].index()]; basin != 0;) {
         if (held.count == held.parts.size()) held.parts.resize(2 * held.count + kBlock);
-        held.parts[held.count] = {TriangleId{t}, basin};
+        held.parts[held.count] = {held.wet[i], basin};
         const double level = basins_.level[basin];
         held.count += ((lowest < level) & (before < level)) ? 1 : 0;
         before = level;
         basin = basins_.met_by[basin];
-      } while (basin != 0);
+      }
     }
   }
 
@@ -117,12 +133,13 @@ class Gauge {
   const FlowGraph& graph_;
   const FlowMesh& mesh_;
   const Basins& basins_;
+  RawVector<std::uint8_t> wet_;  // by vertex: 1 if it is under the water of a pit that its own runs into
 };
 
 }  // namespace
 
 std::vector<Water> measure_water(const FlowGraph& graph, const Basins& basins, Progress& progress) {
-  const Gauge gauge(graph, basins);
+  const Gauge gauge(graph, basins, progress);
   std::vector<Water> sums(basins.level.size());
   for_each_block_in_order<Held>(
       graph.mesh.triangle_count(), kBlock, progress,

@@ -24,6 +24,7 @@ struct Basins {
   /// Up to where the pit in it fills; those that it has met before are under the same water. Of the outside:
   /// less than all heights.
   std::span<const double> level;
+  std::span<const double> fill_level;     ///< of the last pit into which its pit spills, if not its own
   std::span<const std::uint32_t> met_by;  ///< the basin into which its pit spills
 };
 

@@ -162,7 +162,8 @@ SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets,
   std::vector<VertexId> given;
   for (const VertexId v : outlets) given.push_back(graph.mesh.own(v));
   find_falls(graph, progress);
-  for (const VertexId v : given) graph.step[v.index()] = {};
+  const auto keep_at = [&](VertexId v) { graph.step[v.index()] = {.edge = graph.step[v.index()].edge}; };
+  for (const VertexId v : given) keep_at(v);
   graph.flats = resolve_flats(graph.mesh, given, graph.rim, graph.step, progress);
   find_channels(graph, progress);
   break_cycles(graph, progress);
@@ -170,7 +171,7 @@ SurfaceFlow::SurfaceFlow(const Tin& tin, std::span<const VertexId> outlets,
   find_steps(graph, progress);
   for (const VertexId v : stations) {
     given.push_back(graph.mesh.own(v));
-    graph.step[given.back().index()] = {};
+    keep_at(given.back());
   }
   find_sinks(graph, given);
   add_up_sinks(graph, progress);
