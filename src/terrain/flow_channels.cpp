@@ -27,7 +27,7 @@ namespace {
 constexpr std::size_t kBlock = 8192;
 
 /// What is to be known of a side of a triangle: one bit each.
-enum SideBit : unsigned { kChannel = 1, kInflow = 1U << 3U, kMeeting = 1U << 6U, kStands = 1U << 9U };
+constexpr unsigned kChannel = 1, kInflow = 1U << 3U, kMeeting = 1U << 6U, kStands = 1U << 9U;
 
 /// By how the triangle falls over the side, times 8, how the one beyond does, times 2 (none: Level), and 1 if
 /// the halfedge stands for the edge; so that there is no jump: all that cannot be foreseen.

@@ -65,10 +65,9 @@ class FlowMesh {
   void for_each_neighbour(VertexId v, HalfedgeId h, const Visit& visit) const {
     const HalfedgeId first = first_of_fan(out_of(v, h));
     if (!on_rim(first)) return turn_from(first, visit);
-    const auto fans =
-        std::ranges::equal_range(more_fans_, v, {}, [this](HalfedgeId fan) { return origin(fan); });
-    if (fans.empty()) return turn_from(first, visit);
-    for (const HalfedgeId fan : fans) turn_from(fan, visit);
+    auto fan = std::ranges::lower_bound(more_fans_, v, {}, [this](HalfedgeId f) { return origin(f); });
+    if (fan == more_fans_.end() || origin(*fan) != v) return turn_from(first, visit);
+    for (; fan != more_fans_.end() && origin(*fan) == v; ++fan) turn_from(*fan, visit);
   }
   /// Notes at which vertices several fans of triangles meet. `rim`: all halfedges without twin.
   void link_fans(std::span<const HalfedgeId> rim);
