@@ -130,6 +130,15 @@ void measure(Batch& batch) {
     batch.crosses[1][i] = high_corner * (1 - ca);
     batch.crosses[2][i] = high_corner * (1 - ab);
   }
+}
+
+/// Of the two ways down from each corner.
+// The choice is made before sanitizers are ready.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]
+#endif
+void find_steepest(Batch& batch) {
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < kBatch; ++i) {
       const double slope = batch.slope[i], across = batch.crosses[k][i] != 0 ? slope : kRises;
@@ -182,6 +191,7 @@ class FallFinder {
         const std::size_t stop = std::min(end, t + kBatch);
         load(t, stop, batch);
         measure(batch);
+        find_steepest(batch);
         store(t, stop, batch, part);
         for (std::size_t i = t; i < stop; ++i) {
           part.obtuse[obtuse] = TriangleId{i};
