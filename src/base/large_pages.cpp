@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
@@ -22,10 +23,9 @@ void* try_allocate_pages(std::size_t bytes) noexcept {
 void advise_large_pages(void* memory, std::size_t bytes) noexcept {
   if (bytes < kLargePage) return;
   // Whole pages of the smallest kind: what else lies on them does not mind.
-  constexpr std::uintptr_t kPage = 4096;
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory) / kPage * kPage;
-  const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kPage * kPage;
-  madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  constexpr std::size_t kPage = 4096;
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % kPage;
+  madvise(static_cast<std::byte*>(memory) - before, (before + bytes) / kPage * kPage, MADV_HUGEPAGE);
 }
 
 void free_pages(void* memory) noexcept {

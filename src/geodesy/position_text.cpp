@@ -64,8 +64,8 @@ void check_parts(const std::string& text) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
     const std::string_view word = std::string_view(text).substr(begin, end - begin);
     begin = end + 1;
-    if (word.find(':') == word.npos) continue;
-    if (word.find_first_not_of(kBesideColons) != word.npos) {
+    if (word.find(':') == std::string_view::npos) continue;
+    if (word.find_first_not_of(kBesideColons) != std::string_view::npos) {
       refuse(text, "minutes and seconds are parted by colons, or have marks of their own, not both");
     }
     std::size_t colons = 0;
