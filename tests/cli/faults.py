@@ -256,7 +256,8 @@ def little_memory():
 
 
 def few_descriptors():
-    for count in (5, 8):
+    # The sanitizer looks at memory through a pipe, and takes it for none where it gets no pipe.
+    for count in (8,) if "UBSAN_OPTIONS" in os.environ else (5, 8):
         under_limit(f"ulimit -n of {count}", limited(resource.RLIMIT_NOFILE, count), "p.csv",
                     "write-failed or unreadable or not-found or done")
 
