@@ -1,9 +1,8 @@
 // Distinct positions.
 //
-// 1. All positions, points first, then line vertices, are sorted by (x, y, index); without snapping only
-// those
-//    points of which a set that forgets most of a position tells that they may be there twice, or that are
-//    near a line.
+// 1. All positions, points first, then line vertices, are sorted by (x, y, index). Without snapping these are
+//    only those points that may be there twice, as a set tells that keeps one bit of each position, or that
+//    are near a line.
 // 2. Points without snapping: each run of equal positions is one group.
 // 3. With snapping a sweep in that order keeps the representatives within reach in x, sorted by y; two of
 // them
