@@ -1,6 +1,8 @@
 #include "base/large_pages.hpp"
 
 #include <sys/mman.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +28,15 @@ void advise_large_pages(void* memory, std::size_t bytes) noexcept {
   constexpr std::size_t kPage = 4096;
   const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % kPage;
   madvise(static_cast<std::byte*>(memory) - before, (before + bytes) / kPage * kPage, MADV_HUGEPAGE);
+}
+
+void touch_pages(void* memory, std::size_t bytes) {
+  if (bytes < kLargePage || tbb::this_task_arena::max_concurrency() == 1) return;
+  auto* const first = static_cast<std::byte*>(memory);
+  tbb::parallel_for(std::size_t{0}, bytes / kLargePage, [first](std::size_t page) {
+    // Where large pages are not to be had, this is one small page of many, which does no harm.
+    new (first + page * kLargePage) std::byte{};
+  });
 }
 
 void free_pages(void* memory) noexcept {

@@ -33,11 +33,17 @@ using LargeVector = std::vector<T, LargePageAllocator<T>>;
 /// Asks for large pages for memory that nobody has written to yet.
 void advise_large_pages(void* memory, std::size_t bytes) noexcept;
 
-/// Reserves memory on large pages for an array that has none: where it has to be a common vector.
+/// Has the system provide memory that nobody has written to yet, on all threads at once: it is cleared before
+/// it is given away, which takes most of the time that one thread needs to fill an array.
+void touch_pages(void* memory, std::size_t bytes);
+
+/// Reserves memory on large pages for an array that has none: where it has to be a common vector, and will be
+/// filled at once.
 template <class T>
 void reserve_large(std::vector<T>& array, std::size_t count) {
   array.reserve(count);
   advise_large_pages(array.data(), count * sizeof(T));
+  touch_pages(array.data(), count * sizeof(T));
 }
 
 }  // namespace thalweg

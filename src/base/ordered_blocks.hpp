@@ -43,4 +43,22 @@ void for_each_block_in_order(std::size_t count, std::size_t block, const Progres
   tbb::parallel_pipeline(slots.size(), count_up & make_block & take_block);
 }
 
+/// What `list(begin, end, found)` appends to `found`, for blocks as above, in their order.
+template <class Item, class List>
+std::vector<Item> list_in_order(std::size_t count, std::size_t block, const Progress& progress,
+                                const List& list) {
+  std::vector<Item> all;
+  using Found = std::vector<Item>;
+  for_each_block_in_order<Found>(
+      count, block, progress,
+      [&](std::size_t begin, std::size_t end, Found& found) {
+        found.clear();
+        list(begin, end, found);
+      },
+      [&](std::size_t, std::size_t, const Found& found) {
+        all.insert(all.end(), found.begin(), found.end());
+      });
+  return all;
+}
+
 }  // namespace thalweg

@@ -10,6 +10,7 @@
 #include <thalweg/base/error.hpp>
 
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <tuple>
@@ -72,7 +73,7 @@ std::vector<Passage> find_passages(const Survey& survey, const Drawing& drawing,
           {chain[i], drawing.pieces[s].line, drawing.pieces[s].vertex, Passage::Where::OnEdge});
     }
   }
-  std::sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
+  tbb::parallel_sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
     return std::tie(p.vertex, p.line, p.at, p.where) < std::tie(q.vertex, q.line, q.at, q.where);
   });
   return passages;
@@ -132,7 +133,8 @@ std::vector<ConstraintEdge> constraint_edges(const Survey& survey, const Drawing
     }
   }
   const auto ends = [](const ConstraintEdge& edge) { return std::pair(edge.a, edge.b); };
-  std::sort(edges.begin(), edges.end(), [&](const auto& p, const auto& q) { return ends(p) < ends(q); });
+  tbb::parallel_sort(edges.begin(), edges.end(),
+                     [&](const auto& p, const auto& q) { return ends(p) < ends(q); });
   std::size_t count = 0;
   for (const ConstraintEdge& edge : edges) {
     if (count > 0 && ends(edges[count - 1]) == ends(edge)) {

@@ -18,25 +18,42 @@
 //    Delaunay triangulation: a cell behind them sees nothing new.
 #include "edge_insertion.hpp"
 
+#include "base/parallel.hpp"
+
 #include <thalweg/base/assert.hpp>
+#include <thalweg/base/raw_vector.hpp>
 
 #include <algorithm>
+#include <atomic>
 
 namespace thalweg::detail {
 
 namespace {
 
 constexpr std::size_t kStepsBetweenChecks = 1024;
+constexpr std::size_t kBlock = 1 << 14;  // cells
+// Fewer edges are not worth a thread of their own.
+constexpr std::size_t kLeastEdges = 1 << 9;
 constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// Vertices with numbers from `begin` to before `end`.
+struct VertexRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  [[nodiscard]] bool contains(std::uint32_t v) const { return v - begin < end - begin; }
+};
 
 class EdgeInsertion {
  public:
-  EdgeInsertion(const Positions& at, std::span<Cell> cells, const Progress& progress)
-      : at_(at), cells_(cells), progress_(progress), incident_(at.infinity(), kNone) {
-    for (std::uint32_t c = 0; c < cells_.size(); ++c) note_incident(c);
-  }
+  enum class Outcome : std::uint8_t { Inserted, NotOurs, Fault };
 
-  std::optional<EdgeFault> insert(std::uint32_t a, std::uint32_t b);
+  /// `incident`: for each vertex a cell that it is a corner of.
+  EdgeInsertion(const Positions& at, std::span<Cell> cells, std::span<std::uint32_t> incident,
+                VertexRange ours, const Progress& progress)
+      : at_(at), cells_(cells), progress_(progress), incident_(incident), ours_(ours) {}
+
+  /// Changes nothing unless it is inserted.
+  Outcome insert(std::uint32_t a, std::uint32_t b);
 
  private:
   /// A piece of a chain: from the vertex before it to `to`, with what lies beyond.
@@ -58,7 +75,10 @@ class EdgeInsertion {
   void note_incident(std::uint32_t cell);
   [[nodiscard]] std::uint32_t corner_at(std::uint32_t cell, std::uint32_t vertex) const;
   [[nodiscard]] Look look(std::uint32_t cell, std::uint32_t from, std::uint32_t to) const;
-  std::optional<EdgeFault> find_cavity(std::uint32_t leaving, std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] bool is_ours(const Cell& cell) const {
+    return std::ranges::all_of(cell.vertex, [this](std::uint32_t v) { return ours_.contains(v); });
+  }
+  Outcome find_cavity(std::uint32_t leaving, std::uint32_t a, std::uint32_t b);
   void take_pieces(std::uint32_t a, std::uint32_t b);
   void add_piece(std::uint32_t side, std::vector<std::uint32_t>& chain);
   std::uint32_t fill(std::span<const std::uint32_t> chain, std::uint32_t from);
@@ -71,7 +91,8 @@ class EdgeInsertion {
   Positions at_;
   std::span<Cell> cells_;
   const Progress& progress_;
-  std::vector<std::uint32_t> incident_;  ///< for each vertex a cell that it is a corner of
+  std::span<std::uint32_t> incident_;
+  VertexRange ours_;
   std::vector<std::uint32_t> cavity_;    ///< cells crossed, in order
   std::vector<Piece> pieces_;            ///< of both chains
   std::vector<std::uint32_t> piece_of_;  ///< for each cell of the cavity: the piece at the side not crossed
@@ -118,22 +139,25 @@ EdgeInsertion::Look EdgeInsertion::look(std::uint32_t cell, std::uint32_t from, 
   return {};
 }
 
-std::optional<EdgeFault> EdgeInsertion::find_cavity(std::uint32_t leaving, std::uint32_t a, std::uint32_t b) {
-  cavity_.assign(1, cell_of(leaving));
+EdgeInsertion::Outcome EdgeInsertion::find_cavity(std::uint32_t leaving, std::uint32_t a, std::uint32_t b) {
+  cavity_.clear();
   while (true) {
+    cavity_.push_back(cell_of(leaving));
+    if (!is_ours(cells_[cell_of(leaving)])) return Outcome::NotOurs;
     if ((cells_[cell_of(leaving)].constrained >> corner_of(leaving) & 1U) != 0) {
-      return EdgeFault{{a, b}, std::nullopt};
+      return Outcome::Fault;
     }
     const std::uint32_t entered = cells_[cell_of(leaving)].neighbour[corner_of(leaving)];
     const std::uint32_t corner = corner_of(entered);
-    const std::uint32_t cell = cell_of(entered);
-    cavity_.push_back(cell);
-    const std::uint32_t apex = cells_[cell].vertex[corner];
-    if (apex == b) return std::nullopt;
+    const std::uint32_t apex = cells_[cell_of(entered)].vertex[corner];
+    if (apex == b) {
+      cavity_.push_back(cell_of(entered));
+      return Outcome::Inserted;
+    }
     const int side = orientation(at_[a], at_[b], at_[apex]);
-    if (side == 0) return EdgeFault{{a, b}, apex};
+    if (side == 0) return Outcome::Fault;
     // The left end of the side just crossed comes after the apex; an apex on the left takes its place.
-    leaving = side_of(cell, side > 0 ? after(corner) : before(corner));
+    leaving = side_of(cell_of(entered), side > 0 ? after(corner) : before(corner));
   }
 }
 
@@ -276,7 +300,8 @@ void EdgeInsertion::legalise() {
   }
 }
 
-std::optional<EdgeFault> EdgeInsertion::insert(std::uint32_t a, std::uint32_t b) {
+EdgeInsertion::Outcome EdgeInsertion::insert(std::uint32_t a, std::uint32_t b) {
+  if (!ours_.contains(a) || !ours_.contains(b)) return Outcome::NotOurs;
   std::uint32_t cell_at_a = incident_[a], cell_at_b = incident_[b];
   Look found = look(cell_at_a, a, b);
   while (!found.tells()) {
@@ -285,12 +310,12 @@ std::optional<EdgeFault> EdgeInsertion::insert(std::uint32_t a, std::uint32_t b)
     std::swap(cell_at_a, cell_at_b);
     found = look(cell_at_a, a, b);
   }
-  if (found.inside != kNone) return EdgeFault{{a, b}, found.inside};
+  if (found.inside != kNone) return Outcome::Fault;
   if (found.along != kNone) {
     mark(found.along);
-    return std::nullopt;
+    return Outcome::Inserted;
   }
-  if (const auto fault = find_cavity(found.leaving, a, b)) return fault;
+  if (const Outcome outcome = find_cavity(found.leaving, a, b); outcome != Outcome::Inserted) return outcome;
   take_pieces(a, b);
   unused_ = cavity_;
   doubtful_.clear();
@@ -299,19 +324,73 @@ std::optional<EdgeFault> EdgeInsertion::insert(std::uint32_t a, std::uint32_t b)
   link(cells_, on_left, on_right);
   mark(on_left);
   legalise();
-  return std::nullopt;
+  return Outcome::Inserted;
+}
+
+/// For each vertex some cell that it is a corner of.
+RawVector<std::uint32_t> incident_cells(const Positions& at, std::span<const Cell> cells,
+                                        const Progress& progress) {
+  RawVector<std::uint32_t> incident(at.infinity());
+  for_each_block(cells.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      for (const std::uint32_t v : cells[c].vertex) {
+        if (v == at.infinity()) continue;
+        std::atomic_ref(incident[v]).store(static_cast<std::uint32_t>(c), std::memory_order_relaxed);
+      }
+    }
+  });
+  return incident;
+}
+
+/// What one thread left undone.
+struct Rest {
+  std::vector<DrawnEdge> edges;
+  std::optional<VertexPair> fault;
+};
+
+Rest insert_own(EdgeInsertion insertion, std::span<const DrawnEdge> edges, const Progress& progress) {
+  Rest rest;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i % kStepsBetweenChecks == 0) progress.check();
+    const auto& [a, b] = edges[i].ends;
+    const auto outcome = insertion.insert(a, b);
+    if (outcome == EdgeInsertion::Outcome::NotOurs) rest.edges.push_back(edges[i]);
+    if (outcome != EdgeInsertion::Outcome::Fault) continue;
+    rest.fault = edges[i].ends;
+    break;
+  }
+  return rest;
 }
 
 }  // namespace
 
-std::optional<EdgeFault> insert_edges(const Positions& at, std::span<Cell> cells,
-                                      std::span<const DrawnEdge> edges, const Progress& progress) {
-  EdgeInsertion insertion(at, cells, progress);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (i % kStepsBetweenChecks == 0) progress.check();
-    if (const auto fault = insertion.insert(edges[i].ends.first, edges[i].ends.second)) return fault;
+std::optional<VertexPair> insert_edges(const Positions& at, std::span<Cell> cells,
+                                       std::span<const DrawnEdge> edges, std::size_t threads,
+                                       const Progress& progress) {
+  RawVector<std::uint32_t> incident = incident_cells(at, cells, progress);
+  const auto insert_of = [&](VertexRange ours, std::span<const DrawnEdge> some) {
+    return insert_own({at, cells, incident, ours, progress}, some, progress);
+  };
+  const VertexRange all{0, at.infinity()};
+  const std::size_t parts = std::min(threads, edges.size() / kLeastEdges);
+  if (parts < 2) return insert_of(all, edges).fault;
+  std::vector<Rest> rests(parts);
+  for_each_block(parts, 1, progress, [&](std::size_t i, std::size_t) {
+    const auto limit = [&](std::size_t part) {
+      return part == 0 ? 0 : part == parts ? all.end : edges[part * edges.size() / parts].ends.first;
+    };
+    const VertexRange ours{limit(i), limit(i + 1)};
+    const auto first_from = [&](std::uint32_t v) {
+      return std::ranges::lower_bound(edges, v, {}, [](const DrawnEdge& edge) { return edge.ends.first; });
+    };
+    rests[i] = insert_of(ours, {first_from(ours.begin), first_from(ours.end)});
+  });
+  std::vector<DrawnEdge> left;
+  for (const Rest& rest : rests) {
+    if (rest.fault) return rest.fault;
+    left.insert(left.end(), rest.edges.begin(), rest.edges.end());
   }
-  return std::nullopt;
+  return insert_of(all, left).fault;
 }
 
 }  // namespace thalweg::detail

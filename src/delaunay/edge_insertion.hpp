@@ -12,18 +12,13 @@
 
 namespace thalweg::detail {
 
-/// Why an edge cannot be inserted.
-struct EdgeFault {
-  VertexPair edge;
-  /// The vertex that lies inside it; none: it crosses another constraint edge.
-  std::optional<std::uint32_t> vertex;
-};
-
-/// Makes each of the edges a side of two cells, marks it, and keeps all else
-/// constrained Delaunay. Stops at the first edge that cannot be, and leaves the cells undefined then.
-/// Pre: cells as of `delaunay_cells`. Throws: Error{Cancelled}. Complexity: the cells that an edge crosses,
-/// and the flips that make its surroundings Delaunay again: few times as many in practice.
-std::optional<EdgeFault> insert_edges(const Positions& at, std::span<Cell> cells,
-                                      std::span<const DrawnEdge> edges, const Progress& progress);
+/// Makes each of the edges a side of two cells, marks it, and keeps all else constrained Delaunay, on so many
+/// threads. Returns an edge that cannot be, as it crosses another one or a vertex, and leaves the cells
+/// undefined then; on one thread it is the first such edge. Pre: cells as of `delaunay_cells`; edges are
+/// sorted. Throws: Error{Cancelled}. Complexity: the cells that an edge crosses, and the flips that make its
+/// surroundings Delaunay again: few times as many in practice.
+std::optional<VertexPair> insert_edges(const Positions& at, std::span<Cell> cells,
+                                       std::span<const DrawnEdge> edges, std::size_t threads,
+                                       const Progress& progress);
 
 }  // namespace thalweg::detail

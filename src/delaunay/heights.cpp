@@ -10,6 +10,7 @@
 // conflict. Means are sums of sorted heights, so they do not depend on the order of input.
 #include "heights.hpp"
 
+#include "base/ordered_blocks.hpp"
 #include "provenance.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -19,6 +20,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -28,6 +32,8 @@
 namespace thalweg {
 
 namespace {
+
+constexpr std::size_t kBlock = 1 << 14;  // vertices; a multiple of the bits that a word of flags holds
 
 // Interpolation rounds a handful of times, each time by at most half a unit in the last place.
 constexpr double kRounding = 0x1p-49;
@@ -90,6 +96,21 @@ double choose(CrossingRule rule, const std::vector<double>& heights, EdgeKind ki
   return has(kind, EdgeKind::Ridge) ? highest : mean(heights);
 }
 
+// The items whose vertices lie in [begin, end). Pre: they are in order of vertices.
+template <class Item, class VertexOf>
+std::span<const Item> items_at(std::span<const Item> all, std::size_t begin, std::size_t end,
+                               const VertexOf& vertex_of) {
+  const auto first = std::ranges::lower_bound(all, begin, {}, vertex_of);
+  return {first, std::ranges::lower_bound(first, all.end(), end, {}, vertex_of)};
+}
+
+// What a block of vertices has told.
+struct Findings {
+  std::vector<Conflict> conflicts;
+  std::vector<std::uint32_t> vertices;  // of each conflict
+  std::exception_ptr refusal;
+};
+
 class Resolver {
  public:
   Resolver(const Survey& survey, const Drawing& drawing, const GroundOptions& options)
@@ -99,32 +120,59 @@ class Resolver {
     heights_.known.resize(count);
   }
 
-  Heights run(Progress& progress) {
-    const std::vector<std::uint32_t> more = find_first_points();
-    std::span<const std::uint32_t> later = more;
-    std::span<const Passage> passages = drawing_.passages;
-    constexpr std::size_t kStep = 1 << 14;
-    for (std::uint32_t v = 0; v < heights_.z.size(); ++v) {
-      if (v % kStep == 0) progress.check();
-      const auto split = [v](auto& all, const auto& vertex_of) {
-        std::size_t count = 0;
-        while (count < all.size() && vertex_of(all[count]) == v) ++count;
-        const auto here = all.first(count);
-        all = all.subspan(count);
-        return here;
-      };
-      if (v < drawing_.vertices.point_count) {
-        take_points(v, split(later, [&](std::uint32_t p) { return drawing_.vertices.of_point[p]; }));
-      }
-      take_lines(v, split(passages, [](const Passage& p) { return p.vertex; }));
-    }
+  Heights run(const Progress& progress) {
+    const std::vector<std::uint32_t> later = find_first_points();
+    for_each_block_in_order<Findings>(
+        heights_.z.size(), kBlock, progress,
+        [&](std::size_t begin, std::size_t end, Findings& found) {
+          found = {};
+          try {
+            settle_block(begin, end, later, found);
+          } catch (const Error&) {
+            found.refusal = std::current_exception();  // the first in order counts
+          }
+        },
+        [&](std::size_t, std::size_t, Findings& found) {
+          if (found.refusal) std::rethrow_exception(found.refusal);
+          std::ranges::move(found.conflicts, std::back_inserter(heights_.conflicts));
+          std::ranges::copy(found.vertices, std::back_inserter(heights_.conflict_vertices));
+        });
     return std::move(heights_);
   }
 
  private:
+  void settle_block(std::size_t begin, std::size_t end, std::span<const std::uint32_t> later,
+                    Findings& found) {
+    for (std::size_t v = begin; v < std::min(end, drawing_.vertices.point_count); ++v) {
+      set(static_cast<std::uint32_t>(v), survey_.points.z[first_point(static_cast<std::uint32_t>(v))]);
+    }
+    const auto of_point = [this](std::uint32_t p) { return drawing_.vertices.of_point[p]; };
+    auto points = items_at(later, begin, end, of_point);
+    auto passages = items_at(std::span(drawing_.passages), begin, end, &Passage::vertex);
+    const auto take_at = [](auto& rest, std::uint32_t v, const auto& vertex_of) {
+      std::size_t count = 0;
+      while (count < rest.size() && std::invoke(vertex_of, rest[count]) == v) ++count;
+      const auto here = rest.first(count);
+      rest = rest.subspan(count);
+      return here;
+    };
+    while (!points.empty() || !passages.empty()) {
+      std::uint32_t v = VertexId::kInvalid;
+      if (!points.empty()) v = of_point(points.front());
+      if (!passages.empty()) v = std::min(v, passages.front().vertex);
+      take_points(v, take_at(points, v, of_point), found);
+      take_lines(v, take_at(passages, v, &Passage::vertex), found);
+    }
+  }
+
+  [[nodiscard]] std::uint32_t first_point(std::uint32_t v) const {
+    return first_point_.empty() ? v : first_point_[v];
+  }
+
   // Finds each vertex's first point; returns the others, in order of vertices, then file order.
   std::vector<std::uint32_t> find_first_points() {
     const MergedVertices& vertices = drawing_.vertices;
+    if (vertices.point_count == vertices.of_point.size()) return {};  // each is the only one at its vertex
     first_point_.assign(vertices.point_count, VertexId::kInvalid);
     std::vector<std::uint32_t> later;
     for (std::uint32_t p = 0; p < vertices.of_point.size(); ++p) {
@@ -145,29 +193,28 @@ class Resolver {
     heights_.known[v] = true;
   }
 
-  void report(Conflict::Kind kind, std::uint32_t v, double z_a, double z_b, std::string source_a,
-              std::string source_b) {
-    heights_.conflict_vertices.push_back(v);
-    heights_.conflicts.push_back(
+  void report(Findings& found, Conflict::Kind kind, std::uint32_t v, double z_a, double z_b,
+              std::string source_a, std::string source_b) const {
+    found.vertices.push_back(v);
+    found.conflicts.push_back(
         {kind, drawing_.vertices.xy[v], z_a, z_b, heights_.z[v], std::move(source_a), std::move(source_b)});
   }
 
-  void take_points(std::uint32_t v, std::span<const std::uint32_t> later) {
-    const std::uint32_t first = first_point_[v];
-    const double z = survey_.points.z[first];
-    set(v, z);
+  void take_points(std::uint32_t v, std::span<const std::uint32_t> later, Findings& found) {
     if (later.empty()) return;
+    const std::uint32_t first = first_point(v);
+    const double z = survey_.points.z[first];
     std::vector<double> all{z};
     for (const std::uint32_t p : later) all.push_back(survey_.points.z[p]);
     set(v, choose(options_.duplicates, all));
     for (const std::uint32_t p : later) {
       if (survey_.points.z[p] == z) continue;
-      report(Conflict::Kind::DuplicatePoint, v, z, survey_.points.z[p], describe_point(survey_, first),
-             describe_point(survey_, p));
+      report(found, Conflict::Kind::DuplicatePoint, v, z, survey_.points.z[p],
+             describe_point(survey_, first), describe_point(survey_, p));
     }
   }
 
-  void take_lines(std::uint32_t v, std::span<const Passage> passages) {
+  void take_lines(std::uint32_t v, std::span<const Passage> passages, Findings& found) {
     if (passages.empty()) return;
     if (options_.crossing == CrossingRule::Error) refuse_contacts(v, passages);
     const std::vector<Claim> claims = claims_of(v, passages);
@@ -178,13 +225,13 @@ class Resolver {
     set(v, settle(v, claims));
     for (const Claim& claim : claims) {
       if (agree(claim, first)) continue;
-      report(claim.given() && first.given() ? Conflict::Kind::LineVertex : Conflict::Kind::Crossing, v,
+      report(found, claim.given() && first.given() ? Conflict::Kind::LineVertex : Conflict::Kind::Crossing, v,
              first.z, claim.z, describe(first), describe(claim));
     }
     const bool all_agree =
         std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) { return agree(point, claim); });
     if (is_point && !all_agree) {
-      report(Conflict::Kind::PointOnLine, v, point.z, first.z, describe_point(survey_, first_point_[v]),
+      report(found, Conflict::Kind::PointOnLine, v, point.z, first.z, describe_point(survey_, first_point(v)),
              describe(first));
     }
   }
@@ -284,7 +331,7 @@ class Resolver {
   const Survey& survey_;
   const Drawing& drawing_;
   const GroundOptions& options_;
-  std::vector<std::uint32_t> first_point_;  // of each vertex that is a point
+  std::vector<std::uint32_t> first_point_;  // of each vertex that is a point; empty: the vertex's number
   Heights heights_;
 };
 

@@ -63,10 +63,18 @@ bool fit(Point2 p, double z) {
                           what, p.x, p.y, z));
 }
 
-void check_coordinates(const Survey& survey) {
-  for (std::size_t i = 0; i < survey.points.xy.size(); ++i) {
-    const Point2 p = survey.points.xy[i];
-    if (!fit(p, survey.points.z[i])) refuse(describe_point(survey, i), p, survey.points.z[i]);
+void check_coordinates(const Survey& survey, const Progress& progress) {
+  const std::vector<Point2>& xy = survey.points.xy;
+  const std::vector<double>& heights = survey.points.z;
+  const auto unfit = list_in_order<std::size_t>(
+      xy.size(), kBlock, progress, [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!fit(xy[i], heights[i])) found.push_back(i);
+        }
+      });
+  if (!unfit.empty()) {
+    const std::size_t i = unfit.front();
+    refuse(describe_point(survey, i), xy[i], heights[i]);
   }
   for (std::size_t l = 0; l < survey.lines.size(); ++l) {
     const SurveyLine& line = survey.lines[l];
@@ -206,8 +214,8 @@ class PositionMarks {
 };
 
 // Points whose positions may be those of others, or within reach of a line vertex: all that are, few more.
-LargeVector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::span<const Point2> on_lines,
-                                           double reach, const Progress& progress) {
+std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::span<const Point2> on_lines,
+                                          double reach, const Progress& progress) {
   std::vector<Segment> spots;
   for (const Point2 p : on_lines) spots.push_back({p, p});
   const TouchedSquares near_lines(spots, reach);
@@ -217,25 +225,18 @@ LargeVector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::
       if (met.insert(points[i])) met_again.insert(points[i]);
     }
   });
-  LargeVector<std::uint32_t> all;
-  using Found = std::vector<std::uint32_t>;
-  for_each_block_in_order<Found>(
+  return list_in_order<std::uint32_t>(
       points.size(), kBlock, progress,
-      [&](std::size_t begin, std::size_t end, Found& found) {
-        found.clear();
+      [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
         for (std::size_t i = begin; i < end; ++i) {
           const bool near = !spots.empty() && near_lines.may_meet(box_around(points[i], 0));
           if (near || met_again.contains(points[i])) found.push_back(static_cast<std::uint32_t>(i));
         }
-      },
-      [&](std::size_t, std::size_t, const Found& found) {
-        all.insert(all.end(), found.begin(), found.end());
       });
-  return all;
 }
 
-LargeVector<std::uint32_t> range(std::size_t begin, std::size_t end) {
-  LargeVector<std::uint32_t> numbers(end - begin);
+std::vector<std::uint32_t> range(std::size_t begin, std::size_t end) {
+  std::vector<std::uint32_t> numbers(end - begin);
   std::iota(numbers.begin(), numbers.end(), static_cast<std::uint32_t>(begin));
   return numbers;
 }
@@ -262,8 +263,9 @@ RawVector<Placed> sort_places(std::span<const Point2> positions, std::span<const
 // For each index the index whose position it takes.
 LargeVector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
                                                 double snap, double line_snap, const Progress& progress) {
-  LargeVector<std::uint32_t> representative = range(0, all.size());
-  const LargeVector<std::uint32_t> to_merge =
+  LargeVector<std::uint32_t> representative(all.size());
+  std::iota(representative.begin(), representative.end(), 0U);
+  const std::vector<std::uint32_t> to_merge =
       snap > 0 ? range(0, point_count)
                : points_to_merge(all.first(point_count), all.subspan(point_count), line_snap, progress);
   const std::vector<Placed> points =
@@ -275,59 +277,115 @@ LargeVector<std::uint32_t> find_representatives(std::span<const Point2> all, std
   return representative;
 }
 
+// A group that is not named after its representative.
+struct Renamed {
+  std::uint32_t name = 0;
+  std::uint32_t representative = 0;
+};
+
+// Puts the smallest index of its group in the place of each representative.
+std::vector<Renamed> name_groups(LargeVector<std::uint32_t>& representative, const Progress& progress) {
+  const auto joined = list_in_order<std::uint32_t>(
+      representative.size(), kBlock, progress,
+      [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (representative[i] != i) found.push_back(static_cast<std::uint32_t>(i));
+        }
+      });
+  std::vector<Renamed> renamed;
+  for (const std::uint32_t i : joined) {
+    const std::uint32_t chosen = representative[i];
+    if (i > chosen || representative[chosen] != chosen) continue;
+    renamed.push_back({i, chosen});
+    representative[chosen] = i;
+  }
+  for (const std::uint32_t i : joined) representative[i] = representative[representative[i]];
+  return renamed;
+}
+
+// How many groups have names before each block of indices; then all.
+std::vector<std::size_t> groups_before(std::span<const std::uint32_t> name, const Progress& progress) {
+  std::vector<std::size_t> before((name.size() + kBlock - 1) / kBlock + 1);
+  for_each_block(name.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    std::size_t& count = before[begin / kBlock + 1];
+    for (std::size_t i = begin; i < end; ++i) count += name[i] == i ? 1 : 0;
+  });
+  std::partial_sum(before.begin(), before.end(), before.begin());
+  return before;
+}
+
+// Where each line's vertices start among those of all; then the end.
+std::vector<std::size_t> first_vertices(std::span<const SurveyLine> lines) {
+  std::vector<std::size_t> first{0};
+  for (const SurveyLine& line : lines) first.push_back(first.back() + line.xy.size());
+  return first;
+}
+
+// Points, then line vertices.
+std::vector<Point2> all_positions(const Survey& survey, std::size_t count) {
+  std::vector<Point2> all;
+  reserve_large(all, count);
+  all.insert(all.end(), survey.points.xy.begin(), survey.points.xy.end());
+  for (const SurveyLine& line : survey.lines) all.insert(all.end(), line.xy.begin(), line.xy.end());
+  return all;
+}
+
 }  // namespace
 
 MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options, Progress& progress) {
   progress.start_phase("merging points");
-  check_coordinates(survey);
+  check_coordinates(survey, progress);
   MergedVertices merged;
   const std::size_t point_count = survey.points.xy.size();
+  merged.first_of_line = first_vertices(survey.lines);
   std::vector<Point2> with_lines;
-  std::vector<VertexOrigin> line_origins;
-  if (!survey.lines.empty()) {
-    std::size_t count = point_count;
-    for (const SurveyLine& line : survey.lines) count += line.xy.size();
-    reserve_large(with_lines, count);
-    with_lines.insert(with_lines.end(), survey.points.xy.begin(), survey.points.xy.end());
-  }
-  for (std::size_t l = 0; l < survey.lines.size(); ++l) {
-    const SurveyLine& line = survey.lines[l];
-    merged.first_of_line.push_back(with_lines.size() - point_count);
-    with_lines.insert(with_lines.end(), line.xy.begin(), line.xy.end());
-    for (std::size_t i = 0; i < line.xy.size(); ++i) {
-      line_origins.push_back(
-          {VertexOrigin::Kind::LineVertex, static_cast<std::uint32_t>(l), static_cast<std::uint32_t>(i)});
-    }
-  }
+  if (!survey.lines.empty()) with_lines = all_positions(survey, point_count + merged.first_of_line.back());
   const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;
   merged.pixel = snapping_pixel(all, options.resolution);
-  const LargeVector<std::uint32_t> representative = find_representatives(
+  LargeVector<std::uint32_t> name = find_representatives(
       all, point_count, options.snap, std::max(options.snap, merged.pixel / 4), progress);
   progress.advance(0.5);
 
-  const auto origin_of = [&](std::uint32_t i) {
-    return i < point_count ? VertexOrigin{VertexOrigin::Kind::Point, i, 0} : line_origins[i - point_count];
+  const auto origin_of = [&](std::size_t i) {
+    if (i < point_count) return VertexOrigin{VertexOrigin::Kind::Point, static_cast<std::uint32_t>(i), 0};
+    const auto& first = merged.first_of_line;
+    const auto line = std::ranges::upper_bound(first, i - point_count) - first.begin() - 1;
+    return VertexOrigin{VertexOrigin::Kind::LineVertex, static_cast<std::uint32_t>(line),
+                        static_cast<std::uint32_t>(i - point_count - first[line])};
   };
-  // Number the groups by their first members; `number` is indexed by representatives.
-  constexpr std::uint32_t kNone = VertexId::kInvalid;
-  reserve_large(merged.xy, all.size());
-  reserve_large(merged.origins, all.size());
-  LargeVector<std::uint32_t> number(all.size(), kNone);
-  std::vector<std::uint32_t> vertex_of;
-  reserve_large(vertex_of, all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::uint32_t& vertex = number[representative[i]];
-    if (vertex == kNone) {
-      vertex = static_cast<std::uint32_t>(merged.xy.size());
-      merged.xy.push_back(all[representative[i]]);
-      merged.origins.push_back(origin_of(representative[i]));
+  const std::vector<Renamed> renamed = name_groups(name, progress);
+  const std::vector<std::size_t> before = groups_before(name, progress);
+  reserve_large(merged.xy, before.back());
+  merged.xy.resize(before.back());
+  reserve_large(merged.origins, before.back());
+  merged.origins.resize(before.back());
+  merged.of_point.resize(point_count);
+  merged.of_line_vertex.resize(all.size() - point_count);
+  const auto number = [&](std::size_t i) -> std::uint32_t& {
+    return i < point_count ? merged.of_point[i] : merged.of_line_vertex[i - point_count];
+  };
+  for_each_block(all.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    std::size_t next = before[begin / kBlock];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (name[i] != i) continue;
+      merged.xy[next] = all[i];
+      merged.origins[next] = origin_of(i);
+      number(i) = static_cast<std::uint32_t>(next++);
     }
-    vertex_of.push_back(vertex);
-    if (i + 1 == point_count) merged.point_count = merged.xy.size();
+  });
+  for_each_block(all.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (name[i] != i) number(i) = number(name[i]);
+    }
+  });
+  for (const auto& [first, representative] : renamed) {
+    merged.xy[number(first)] = all[representative];
+    merged.origins[number(first)] = origin_of(representative);
   }
-  merged.of_line_vertex.assign(vertex_of.begin() + static_cast<std::ptrdiff_t>(point_count), vertex_of.end());
-  vertex_of.resize(point_count);
-  merged.of_point = std::move(vertex_of);
+  merged.point_count = before[point_count / kBlock];
+  for (std::size_t i = point_count / kBlock * kBlock; i < point_count; ++i) {
+    merged.point_count += name[i] == i ? 1 : 0;
+  }
   progress.advance(1);
   return merged;
 }

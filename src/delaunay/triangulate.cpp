@@ -88,8 +88,11 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Dr
   std::vector<DrawnEdge> drawn;
   if (!edges.empty() && !cells.empty()) {
     drawn = order.empty() ? std::vector(edges.begin(), edges.end()) : renumbered(edges, order);
-    if (const auto fault = insert_edges(at, cells, drawn, progress)) {
-      result.crossing = std::minmax(given(fault->edge.first), given(fault->edge.second));
+    if (insert_edges(at, cells, drawn, range_count(points.size()), progress)) {
+      // Of all that cannot be, name the first, whatever the number of threads.
+      cells = delaunay_cells(at, progress);
+      const auto fault = insert_edges(at, cells, drawn, 1, progress).value();
+      result.crossing = std::minmax(given(fault.first), given(fault.second));
       return result;
     }
   }

@@ -1,5 +1,7 @@
 // The outline: from a rim halfedge a -> b, turn about b within the fan until the next rim halfedge, which
 // starts at b.
+#include "base/ordered_blocks.hpp"
+
 #include <thalweg/mesh/rim.hpp>
 
 #include <algorithm>
@@ -36,10 +38,15 @@ std::vector<std::vector<VertexId>> rim_loops(const Tin& tin) {
 }
 
 std::vector<HalfedgeId> rim_halfedges(const Tin& tin) {
-  std::vector<HalfedgeId> rim;
-  for (std::size_t h = 0; h < tin.halfedge_count(); ++h) {
-    if (tin.on_rim(HalfedgeId{h})) rim.emplace_back(h);
-  }
+  constexpr std::size_t kBlock = 1 << 16;
+  const Progress uncancelled;
+  auto rim = list_in_order<HalfedgeId>(
+      tin.halfedge_count(), kBlock, uncancelled,
+      [&tin](std::size_t begin, std::size_t end, std::vector<HalfedgeId>& found) {
+        for (std::size_t h = begin; h < end; ++h) {
+          if (tin.on_rim(HalfedgeId{h})) found.emplace_back(h);
+        }
+      });
   std::ranges::sort(rim, {}, [&](HalfedgeId h) { return std::pair(tin.origin(h), h); });
   return rim;
 }

@@ -8,6 +8,7 @@
 //    vertices lie only at ends of edges; if it blocks, so do its ends.
 #include "order/ground.hpp"
 
+#include "base/ordered_blocks.hpp"
 #include "base/union_find.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace {
 
 /// Halfedges that are passed over together where none is of a constraint edge: few are.
 constexpr std::size_t kAtOnce = 48;
+constexpr std::size_t kBlock = 1024 * kAtOnce;
 
 // For p, a, b collinear, both other than p: whether a and b lie on the same side of p.
 bool same_direction(Point2 p, Point2 a, Point2 b) {
@@ -51,18 +53,22 @@ std::optional<Angle> intersect(Point2 p, Angle a, Angle b) {
 Ground::Ground(const Tin& tin, GroundMode mode)
     : tin_(&tin), mode_(mode), blocking_(tin.vertex_count(), false) {
   const std::span<const EdgeKind> kinds = tin.arrays().kinds;
-  for (std::size_t begin = 0; begin < kinds.size(); begin += kAtOnce) {
-    const std::size_t end = std::min(kinds.size(), begin + kAtOnce);
-    unsigned constrained = 0;
-    for (std::size_t i = begin; i < end; ++i) constrained |= static_cast<unsigned>(kinds[i]);
-    if (constrained == 0 && mode == GroundMode::Hull) continue;
-    for (std::size_t i = begin; i < end; ++i) {
-      const HalfedgeId h{i};
-      if (!blocks(h)) continue;
-      any_blocks_ = true;
-      blocking_[tin.origin(h).index()] = true;
-      blocking_[tin.target(h).index()] = true;
+  const Progress uncancelled;
+  const auto list = [&](std::size_t first, std::size_t last, std::vector<HalfedgeId>& found) {
+    for (std::size_t begin = first; begin < last; begin += kAtOnce) {
+      const std::size_t end = std::min(last, begin + kAtOnce);
+      unsigned constrained = 0;
+      for (std::size_t i = begin; i < end; ++i) constrained |= static_cast<unsigned>(kinds[i]);
+      if (constrained == 0 && mode == GroundMode::Hull) continue;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (blocks(HalfedgeId{i})) found.emplace_back(i);
+      }
     }
+  };
+  for (const HalfedgeId h : list_in_order<HalfedgeId>(kinds.size(), kBlock, uncancelled, list)) {
+    any_blocks_ = true;
+    blocking_[tin.origin(h).index()] = true;
+    blocking_[tin.target(h).index()] = true;
   }
   simple_polygons_ = mode == GroundMode::Polygon && find_simple_polygons();
 }
