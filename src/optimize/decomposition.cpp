@@ -30,7 +30,7 @@ class Decomposition {
         solve_wide_(solve_wide),
         progress_(progress),
         reduction_(reduce(problem, progress)),
-        parts_(split(problem, reduction_)),
+        parts_(split(problem, reduction_, progress)),
         label_(reduction_.label) {}
 
   Solution<Criteria> run() {

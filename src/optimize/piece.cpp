@@ -8,6 +8,8 @@
 // two ends of a stretch of it.
 #include "optimize/piece.hpp"
 
+#include "base/parallel.hpp"
+
 #include <thalweg/base/assert.hpp>
 
 #include <algorithm>
@@ -18,6 +20,8 @@
 namespace thalweg {
 
 namespace {
+
+constexpr std::size_t kBlock = 1 << 15;  // variables
 
 /// Each once, by its first variable in the selection; scopes ascend.
 template <std::size_t Criteria>
@@ -87,14 +91,21 @@ Labelling<Criteria> restrict_to(const Labelling<Criteria>& problem, const Reduct
 
 template <std::size_t Criteria>
 Cost<Criteria> cost_of(const Labelling<Criteria>& problem, std::span<const Label> label) {
-  Cost<Criteria> cost;
-  for (std::uint32_t q = 0; q < problem.size(); ++q) {
-    if (label[q] != Label::One) continue;
-    cost += problem.unary[q];
-    for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
-      if (problem.neighbour[i] < q && label[problem.neighbour[i]] == Label::One) add(cost, problem.weight[i]);
+  std::vector<Cost<Criteria>> parts((problem.size() + kBlock - 1) / kBlock);
+  const Progress uncancelled;
+  for_each_block(problem.size(), kBlock, uncancelled, [&](std::size_t begin, std::size_t end) {
+    Cost<Criteria>& cost = parts[begin / kBlock];
+    for (std::size_t q = begin; q < end; ++q) {
+      if (label[q] != Label::One) continue;
+      cost += problem.unary[q];
+      for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {
+        const std::uint32_t p = problem.neighbour[i];
+        if (p < q && label[p] == Label::One) add(cost, problem.weight[i]);
+      }
     }
-  }
+  });
+  auto cost = std::accumulate(parts.begin(), parts.end(), Cost<Criteria>{},
+                              [](Cost<Criteria> sum, const Cost<Criteria>& part) { return sum += part; });
   for (std::size_t t = 0; t < problem.tables.size(); ++t) {
     add(cost, problem.tables.entries(t)[slice_of(problem.tables.scope(t), label).base]);
   }

@@ -37,7 +37,7 @@ class StepWriter {
     Reduction reduction = reduce(problem_, progress_);
     write_bridges();
     write_fixed(reduction);
-    Partition parts = split(problem_, reduction);
+    Partition parts = split(problem_, reduction, progress_);
     std::vector<std::uint32_t> node(problem_.node_count), index(problem_.size());
     for (std::uint32_t i = 0; i < node.size(); ++i) node[i] = reduction.nodes.find(i);
     for (std::size_t i = 0; i < parts.size(); ++i) {

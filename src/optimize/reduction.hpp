@@ -21,7 +21,7 @@ struct Reduction {
 
 /// Fixes labels such that an optimum of the problem has them; what stays Open is undecided.
 /// The result does not depend on the order of variables, unless costs tie at all levels.
-/// Complexity: linear for each round, of which there are few; the first pass runs on all threads.
+/// Complexity: linear for each round, of which there are few; the first one runs on all threads.
 template <std::size_t Criteria>
 Reduction reduce(const Labelling<Criteria>& problem, const Progress& progress);
 
@@ -32,8 +32,9 @@ struct Partition {
   [[nodiscard]] std::size_t size() const { return first.size() - 1; }
 };
 
-/// Connected components of the open variables, through non-zero weights and through common blocks.
+/// Connected components of the open variables, through non-zero weights and through common blocks. Their order
+/// does not depend on the number of threads. Complexity: linear.
 template <std::size_t Criteria>
-Partition split(const Labelling<Criteria>& problem, const Reduction& reduction);
+Partition split(const Labelling<Criteria>& problem, const Reduction& reduction, const Progress& progress);
 
 }  // namespace thalweg
