@@ -22,10 +22,9 @@ constexpr std::size_t kLarge = 256;
 template <std::size_t Criteria>
 class Decomposition {
  public:
-  Decomposition(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                std::uint32_t width_limit, const WideSolver<Criteria>& solve_wide, const Progress& progress)
+  Decomposition(const Labelling<Criteria>& problem, std::uint32_t width_limit,
+                const WideSolver<Criteria>& solve_wide, const Progress& progress)
       : problem_(problem),
-        rank_(rank),
         width_limit_(width_limit),
         solve_wide_(solve_wide),
         progress_(progress),
@@ -65,7 +64,7 @@ class Decomposition {
   void solve_part(std::size_t i, SmallPiece<Criteria>& small) {
     const std::span<std::uint32_t> variables = part(i);
     std::sort(variables.begin(), variables.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return rank_[a] < rank_[b]; });
+              [&](std::uint32_t a, std::uint32_t b) { return problem_.before(a, b); });
     for (std::uint32_t j = 0; j < variables.size(); ++j) index_[variables[j]] = j;
     const Selection selection{variables, index_};
     if (small.solve(problem_, reduction_, selection, width_limit_)) {
@@ -113,7 +112,6 @@ class Decomposition {
   }
 
   const Labelling<Criteria>& problem_;
-  std::span<const std::uint32_t> rank_;
   std::uint32_t width_limit_;
   const WideSolver<Criteria>& solve_wide_;
   const Progress& progress_;
@@ -127,10 +125,9 @@ class Decomposition {
 }  // namespace
 
 template <std::size_t Criteria>
-Solution<Criteria> decompose(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                             std::uint32_t width_limit, const WideSolver<Criteria>& solve_wide,
-                             const Progress& progress) {
-  return Decomposition<Criteria>(problem, rank, width_limit, solve_wide, progress).run();
+Solution<Criteria> decompose(const Labelling<Criteria>& problem, std::uint32_t width_limit,
+                             const WideSolver<Criteria>& solve_wide, const Progress& progress) {
+  return Decomposition<Criteria>(problem, width_limit, solve_wide, progress).run();
 }
 
 template <std::size_t Criteria>
@@ -152,12 +149,9 @@ Labelling<Criteria> fix_labels(const Labelling<Criteria>& problem, std::span<con
   return restrict_to<Criteria>(problem, fixed, node, {open, index});
 }
 
-template Solution<1> decompose(const Labelling<1>&, std::span<const std::uint32_t>, std::uint32_t,
-                               const WideSolver<1>&, const Progress&);
-template Solution<2> decompose(const Labelling<2>&, std::span<const std::uint32_t>, std::uint32_t,
-                               const WideSolver<2>&, const Progress&);
-template Solution<4> decompose(const Labelling<4>&, std::span<const std::uint32_t>, std::uint32_t,
-                               const WideSolver<4>&, const Progress&);
+template Solution<1> decompose(const Labelling<1>&, std::uint32_t, const WideSolver<1>&, const Progress&);
+template Solution<2> decompose(const Labelling<2>&, std::uint32_t, const WideSolver<2>&, const Progress&);
+template Solution<4> decompose(const Labelling<4>&, std::uint32_t, const WideSolver<4>&, const Progress&);
 template Labelling<1> fix_labels(const Labelling<1>&, std::span<const Label>, std::span<const std::uint32_t>);
 template Labelling<2> fix_labels(const Labelling<2>&, std::span<const Label>, std::span<const std::uint32_t>);
 template Labelling<4> fix_labels(const Labelling<4>&, std::span<const Label>, std::span<const std::uint32_t>);

@@ -40,13 +40,11 @@ template <std::size_t Criteria>
 using WideSolver = std::function<Solution<Criteria>(const Labelling<Criteria>& piece,
                                                     std::span<const std::uint32_t> variables)>;
 
-/// `rank` numbers the variables independently of their order; pieces list theirs by it.
 /// The result does not depend on the number of threads. Complexity: linear but for wide pieces; runs on all
 /// threads.
 template <std::size_t Criteria>
-Solution<Criteria> decompose(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                             std::uint32_t width_limit, const WideSolver<Criteria>& solve_wide,
-                             const Progress& progress);
+Solution<Criteria> decompose(const Labelling<Criteria>& problem, std::uint32_t width_limit,
+                             const WideSolver<Criteria>& solve_wide, const Progress& progress);
 
 /// The problem that is left when variables are fixed; `open` lists those that are Open in `label`.
 template <std::size_t Criteria>

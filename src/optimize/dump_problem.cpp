@@ -125,7 +125,9 @@ class Writer {
 
   [[nodiscard]] std::int64_t more_than_any() const {
     std::int64_t sum = std::abs(constant()) + 1;
-    for (const Cost<Criteria>& cost : problem_.labelling.unary) sum += std::abs(cost.level[level_]);
+    for (std::size_t q = 0; q < problem_.labelling.size(); ++q) {
+      sum += std::abs(problem_.labelling.unary[q].level[level_]);
+    }
     for (std::size_t i = 0; i < problem_.labelling.weight.size(); ++i) sum += std::abs(weight(i));
     const Tables<Criteria>& tables = problem_.labelling.tables;
     for (std::size_t i = 0; i < tables.size(); ++i) {

@@ -75,8 +75,8 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
                       most_at_vertex(options.width_limit));
   Labelling<Criteria>& labelling = problem.labelling;
   labelling.unary.resize(quadrilaterals.size());
-  // Ties take much memory while they are found; rows and weights stay.
-  problem.rank = add_flips_and_ties<Criteria>(tin, quadrilaterals, labelling.unary, progress);
+  problem.quadrilaterals = quadrilaterals.size();
+  find_ties(tin, quadrilaterals, labelling.unary.ties(), progress);
   progress.advance(0.2);
   if (!problem.sums.empty()) {
     TermScan::Rows rows = scan.lay_out_rows(progress);

@@ -27,7 +27,7 @@ struct FirstOrderProblem {
   Labelling<Criteria> labelling;  ///< level i is sums[i]; label 1 flips; without links
   std::array<WideSteps, Criteria> delaunay{};
   std::vector<std::uint32_t> owner;  ///< the quadrilateral of each triangle, or kNone
-  std::vector<std::uint32_t> rank;   ///< of quadrilaterals, by coordinates alone
+  std::size_t quadrilaterals = 0;    ///< which are the first variables
   PlateauGraph plateaus;             ///< if pits are counted
   PlateauGraph spills;               ///< if their depth comes first
 

@@ -81,9 +81,7 @@ class Run {
   /// Levels up to and with an extreme, some limit set, as a problem of their own: later levels are empty.
   [[nodiscard]] Labelling<Criteria> up_to(std::size_t level) const {
     Labelling<Criteria> part = problem_.labelling;
-    for (Cost<Criteria>& cost : part.unary) {
-      std::fill(cost.level.begin() + level, cost.level.begin() + Criteria, 0);
-    }
+    for (Weight<Criteria>& levels : part.unary.levels()) std::fill(levels.begin() + level, levels.end(), 0);
     for (Weight<Criteria>& weight : part.weight) std::fill(weight.begin() + level, weight.end(), 0);
     for (std::size_t later = level; later < Criteria; ++later) part.tables.clear_level(later);
     part.tables.index(part.size());
@@ -121,7 +119,7 @@ class Run {
   Solution<Criteria> solve_held(Labelling<Criteria>& part) {
     for (int round = 0;; ++round) {
       const std::int64_t constant = held_ ? count_held(part) : 0;
-      Solution<Criteria> solution = solve<Criteria>(part, problem_.rank, limits_, progress_, known_);
+      Solution<Criteria> solution = solve<Criteria>(part, limits_, progress_, known_);
       if (!held_) return solution;
       solution.value.level[held_->level] += constant;
       solution.bound.level[held_->level] += constant;
@@ -221,7 +219,7 @@ class Run {
       if (problem_.pits_first) problem_.connectivity().link = std::move(labelling.link);
       return;
     }
-    const std::size_t quadrilaterals = problem_.rank.size();
+    const std::size_t quadrilaterals = problem_.quadrilaterals;
     for (bool refined = true; refined;) {
       lay_pits(counted, quadrilaterals);
       settle_from(first + 1, problem_.sums.size());
@@ -232,7 +230,6 @@ class Run {
         if (pits.terms.refine(solution_.label) == PitTerms::Outcome::Refined) refined = true;
       }
     }
-    problem_.rank.resize(quadrilaterals);
     solution_.label.resize(quadrilaterals);
     for (const CountedPits& pits : counted) {
       problem_.delaunay[pits.level] = pits.constant + pits.terms.constant();
@@ -253,7 +250,7 @@ class Run {
         counted.push_back({level, pit_terms(), 0});
       } else if (problem_.sums[level].is(Criterion::PitDepth)) {
         DepthTerms depth = find_depth_terms(scan_.tin(), scan_.quadrilaterals(), problem_.owner,
-                                            vertical_metres_, problem_.rank, progress_);
+                                            vertical_metres_, problem_.labelling.unary.ties(), progress_);
         counted.push_back({level, std::move(depth.terms), depth.constant});
       }
     }
@@ -287,7 +284,7 @@ class Run {
       if (link.exists()) links.push_back({link.a, link.b, {q, link.helpful}});
     }
     return {std::move(links), std::vector<std::int64_t>(problem_.plateaus.node_count, to_steps(1)),
-            problem_.rank};
+            problem_.labelling.unary.ties()};
   }
 
   /// Fills the levels of pits anew, with auxiliary variables after the quadrilaterals.
@@ -299,9 +296,6 @@ class Run {
       labelling.tables.clear_level(pits.level);
       pits.terms.add_to(labelling, pits.level);
     }
-    problem_.rank.resize(labelling.size());
-    std::iota(problem_.rank.begin() + static_cast<std::ptrdiff_t>(quadrilaterals), problem_.rank.end(),
-              static_cast<std::uint32_t>(quadrilaterals));
     if (!known_.empty()) known_.resize(quadrilaterals);
     known_.resize(known_.empty() ? 0 : labelling.size(), Label::Zero);
   }
@@ -347,14 +341,14 @@ class Run {
 
   void write_stage(std::size_t criteria, const Labelling<Criteria>& problem) {
     std::ostringstream steps;
-    if (!write_steps<Criteria>(steps, problem, problem_.rank, limits_.width, progress_)) return;
+    if (!write_steps<Criteria>(steps, problem, limits_.width, progress_)) return;
     *proof_ << "stage " << criteria << '\n' << steps.str();
   }
 
   [[nodiscard]] OptimizeResult report() const {
     OptimizeResult result;
-    result.quadrilaterals = problem_.rank.size();
-    result.flipped.reserve(problem_.rank.size());
+    result.quadrilaterals = problem_.quadrilaterals;
+    result.flipped.reserve(problem_.quadrilaterals);
     for (const Label label : solution_.label) result.flipped.push_back(label == Label::One ? 1 : 0);
     result.fixed_by_elimination = solution_.figures.fixed_by_elimination;
     result.pieces = solution_.figures.pieces;
@@ -391,9 +385,9 @@ class Run {
                  pit_depth_of(scan_.tin(), scan_.quadrilaterals(), label, vertical_metres_, progress_)) /
              kStepsPerUnit;
     };
-    line.delaunay = value(std::vector<Label>(problem_.rank.size(), Label::Zero));
+    line.delaunay = value(std::vector<Label>(problem_.quadrilaterals, Label::Zero));
     line.result = value(solution_.label);
-    line.bound = value(std::vector<Label>(problem_.rank.size(), Label::Open));
+    line.bound = value(std::vector<Label>(problem_.quadrilaterals, Label::Open));
     line.method = "connectivity";
     if (level) {
       const WideSteps steps = problem_.delaunay[*level] + solution_.bound.level[*level];

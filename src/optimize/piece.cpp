@@ -137,7 +137,8 @@ Clauses shorten(const Labelling<Criteria>& problem, std::span<const PairCost<Cri
   std::vector<std::uint32_t> numbers;
   if (count > problem.size()) {
     const std::vector<Clause> clauses = split_cuts(short_cuts, {}, 0);
-    const TermSum<Criteria> sum{problem.size(), problem.unary, pairs, clauses, &problem.tables};
+    const std::vector<Cost<Criteria>> unary = problem.unary.all();
+    const TermSum<Criteria> sum{problem.size(), unary, pairs, clauses, &problem.tables};
     const EliminationOrder order = find_elimination_order(problem.size(), interactions(sum), width_limit);
     numbers.resize(problem.size());
     std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
@@ -151,13 +152,13 @@ std::optional<ExactLabels> solve_exactly(const Labelling<Criteria>& problem, std
                                          const Progress& progress) {
   if (problem.neighbour.empty() && problem.tables.empty()) return ExactLabels{span_at_least_cost(problem)};
   const std::vector<PairCost<Criteria>> pairs = pairs_of(problem);
+  const std::vector<Cost<Criteria>> unary = problem.unary.all();
   const std::vector<Label> none(problem.size(), Label::Open);
   std::vector<Cut> cuts = failed_cuts(problem.link, problem.node_count, none);
   ExactLabels exact;
   while (true) {
     Clauses clauses = shorten<Criteria>(problem, pairs, cuts, width_limit);
-    const TermSum<Criteria> sum{clauses.variable_count, problem.unary, pairs, clauses.clauses,
-                                &problem.tables};
+    const TermSum<Criteria> sum{clauses.variable_count, unary, pairs, clauses.clauses, &problem.tables};
     EliminationOrder order = find_elimination_order(clauses.variable_count, interactions(sum), width_limit);
     if (!order.complete) return std::nullopt;
     exact.width = std::max(exact.width, order.width);

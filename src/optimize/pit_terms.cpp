@@ -16,6 +16,7 @@
 #include "optimize/normal_angle.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace thalweg {
 
@@ -31,14 +32,16 @@ bool is_true(const Literal& literal, std::span<const Label> label) {
 }  // namespace
 
 PitTerms::PitTerms(std::vector<PitLink> links, std::vector<std::int64_t> weight,
-                   std::span<const std::uint32_t> rank)
+                   std::span<const std::int64_t> tie)
     : links_(std::move(links)),
       weight_(std::move(weight)),
       links_at_(weight_.size()),
       group_(weight_.size(), kNone) {
   std::stable_sort(links_.begin(), links_.end(), [&](const PitLink& x, const PitLink& y) {
-    if (x.when.variable != y.when.variable) return rank[x.when.variable] < rank[y.when.variable];
-    return x.when.label < y.when.label;
+    const auto key = [&](const Literal& when) {
+      return std::tuple(tie[when.variable], when.variable, when.label);
+    };
+    return key(x.when) < key(y.when);
   });
   const auto join = [&](std::uint32_t node, std::uint32_t link) {
     links_at_[node].push_back(link);
@@ -93,7 +96,7 @@ class PitTerms::Writer {
 
  private:
   std::uint32_t new_variable() {
-    labelling_.unary.emplace_back();
+    labelling_.unary.push_back({});
     labelling_.first.push_back(labelling_.first.back());
     if (!labelling_.link.empty()) labelling_.link.emplace_back();
     return static_cast<std::uint32_t>(labelling_.unary.size() - 1);

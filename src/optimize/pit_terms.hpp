@@ -24,8 +24,8 @@ class PitTerms {
  public:
   /// `weight`: by node, steps; that of node 0 is not looked at. Pre: links join different nodes, those
   /// between others than node 0 such as have equal weights. The tables do not depend on the numbers of nodes
-  /// if `rank`, by variable, and the order of links do not.
-  PitTerms(std::vector<PitLink> links, std::vector<std::int64_t> weight, std::span<const std::uint32_t> rank);
+  /// if `tie`, by variable, and the order of links do not.
+  PitTerms(std::vector<PitLink> links, std::vector<std::int64_t> weight, std::span<const std::int64_t> tie);
 
   /// Adds the terms to a level, with auxiliary variables, which cost nothing, after those
   /// that are there. The sum less `constant` is the least over their labels.

@@ -24,11 +24,10 @@ namespace {
 template <std::size_t Criteria>
 class StepWriter {
  public:
-  StepWriter(std::ostream& out, const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-             std::uint32_t width_limit, const Progress& progress)
+  StepWriter(std::ostream& out, const Labelling<Criteria>& problem, std::uint32_t width_limit,
+             const Progress& progress)
       : out_(out),
         problem_(problem),
-        rank_(rank),
         width_limit_(width_limit),
         progress_(progress),
         next_(static_cast<std::uint32_t>(problem.size())) {}
@@ -45,7 +44,7 @@ class StepWriter {
       const std::span<std::uint32_t> variables =
           std::span(parts.variable).subspan(parts.first[i], parts.first[i + 1] - parts.first[i]);
       std::sort(variables.begin(), variables.end(),
-                [&](std::uint32_t a, std::uint32_t b) { return rank_[a] < rank_[b]; });
+                [&](std::uint32_t a, std::uint32_t b) { return problem_.before(a, b); });
       for (std::uint32_t j = 0; j < variables.size(); ++j) index[variables[j]] = j;
       if (!write_piece(restrict_to<Criteria>(problem_, reduction, node, {variables, index}), variables)) {
         return false;
@@ -151,7 +150,6 @@ class StepWriter {
 
   std::ostream& out_;
   const Labelling<Criteria>& problem_;
-  std::span<const std::uint32_t> rank_;
   std::uint32_t width_limit_;
   const Progress& progress_;
   std::vector<bool> is_bridge_;
@@ -162,16 +160,13 @@ class StepWriter {
 }  // namespace
 
 template <std::size_t Criteria>
-bool write_steps(std::ostream& out, const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                 std::uint32_t width_limit, const Progress& progress) {
-  return StepWriter<Criteria>(out, problem, rank, width_limit, progress).run();
+bool write_steps(std::ostream& out, const Labelling<Criteria>& problem, std::uint32_t width_limit,
+                 const Progress& progress) {
+  return StepWriter<Criteria>(out, problem, width_limit, progress).run();
 }
 
-template bool write_steps(std::ostream&, const Labelling<1>&, std::span<const std::uint32_t>, std::uint32_t,
-                          const Progress&);
-template bool write_steps(std::ostream&, const Labelling<2>&, std::span<const std::uint32_t>, std::uint32_t,
-                          const Progress&);
-template bool write_steps(std::ostream&, const Labelling<4>&, std::span<const std::uint32_t>, std::uint32_t,
-                          const Progress&);
+template bool write_steps(std::ostream&, const Labelling<1>&, std::uint32_t, const Progress&);
+template bool write_steps(std::ostream&, const Labelling<2>&, std::uint32_t, const Progress&);
+template bool write_steps(std::ostream&, const Labelling<4>&, std::uint32_t, const Progress&);
 
 }  // namespace thalweg

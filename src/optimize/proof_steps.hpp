@@ -12,11 +12,11 @@
 
 namespace thalweg {
 
-/// Writes the steps; `rank` as for `solve`. False if a piece is wider than the limit: then what was written
+/// Writes the steps. False if a piece is wider than the limit: then what was written
 /// proves nothing. The problem is solved once more on the way, so that the solver needs to keep nothing.
 /// Complexity: as solving.
 template <std::size_t Criteria>
-bool write_steps(std::ostream& out, const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                 std::uint32_t width_limit, const Progress& progress);
+bool write_steps(std::ostream& out, const Labelling<Criteria>& problem, std::uint32_t width_limit,
+                 const Progress& progress);
 
 }  // namespace thalweg

@@ -32,7 +32,7 @@ class Relaxation {
     tables_ = problem.tables;
     Clauses shortened = shorten<Criteria>(problem, pairs_, cuts, width_limit);
     clauses_ = std::move(shortened.clauses);
-    unary_ = problem.unary;
+    unary_ = problem.unary.all();
     unary_.resize(shortened.variable_count);
     split(width_limit);
     order_ =

@@ -46,7 +46,7 @@ class Network {
       : source_(literal(static_cast<std::uint32_t>(problem.size()), Label::One)),
         flow_(2 * problem.size() + 2) {
     std::vector<std::int64_t> unary;
-    for (const Cost<Criteria>& cost : problem.unary) unary.push_back(cost.level[0]);
+    for (const Weight<Criteria>& levels : problem.unary.levels()) unary.push_back(levels[0]);
     for (const PairCost<Criteria>& pair : pairs_of(problem)) {
       const std::int64_t weight = pair.weight[0];
       const std::uint32_t a = literal(pair.a, Label::One), b = literal(pair.b, Label::One);

@@ -12,7 +12,6 @@
 #include "optimize/wide.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace thalweg {
 
@@ -36,12 +35,9 @@ class WidePieces {
       const auto effort = static_cast<std::uint64_t>(share * static_cast<double>(limits_.effort));
       return bracket(piece, known, dual.bound, limits_.width, effort, progress_);
     }
-    std::vector<std::uint32_t> rank(open.size());
-    std::iota(rank.begin(), rank.end(), std::uint32_t{0});
     const Labelling<Criteria> rest = fix_labels<Criteria>(piece, dual.label, open);
     const std::vector<Label> known_rest = select(known, open);
-    Solution<Criteria> solution =
-        decompose<Criteria>(rest, rank, limits_.width, handler(known_rest), progress_);
+    Solution<Criteria> solution = decompose<Criteria>(rest, limits_.width, handler(known_rest), progress_);
     const Cost<Criteria> gap = solution.value - solution.bound;
     std::vector<Label> label = dual.label;
     for (std::size_t i = 0; i < open.size(); ++i) label[open[i]] = solution.label[i];
@@ -75,17 +71,14 @@ class WidePieces {
 }  // namespace
 
 template <std::size_t Criteria>
-Solution<Criteria> solve(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                         const SolverLimits& limits, const Progress& progress, std::span<const Label> known) {
+Solution<Criteria> solve(const Labelling<Criteria>& problem, const SolverLimits& limits,
+                         const Progress& progress, std::span<const Label> known) {
   const WidePieces<Criteria> wide(limits, problem.size(), progress);
-  return decompose<Criteria>(problem, rank, limits.width, wide.handler(known), progress);
+  return decompose<Criteria>(problem, limits.width, wide.handler(known), progress);
 }
 
-template Solution<1> solve(const Labelling<1>&, std::span<const std::uint32_t>, const SolverLimits&,
-                           const Progress&, std::span<const Label>);
-template Solution<2> solve(const Labelling<2>&, std::span<const std::uint32_t>, const SolverLimits&,
-                           const Progress&, std::span<const Label>);
-template Solution<4> solve(const Labelling<4>&, std::span<const std::uint32_t>, const SolverLimits&,
-                           const Progress&, std::span<const Label>);
+template Solution<1> solve(const Labelling<1>&, const SolverLimits&, const Progress&, std::span<const Label>);
+template Solution<2> solve(const Labelling<2>&, const SolverLimits&, const Progress&, std::span<const Label>);
+template Solution<4> solve(const Labelling<4>&, const SolverLimits&, const Progress&, std::span<const Label>);
 
 }  // namespace thalweg

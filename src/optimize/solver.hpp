@@ -14,8 +14,7 @@ struct SolverLimits {
 /// Arguments and promises as for `decompose`. `known` is empty, or a labelling where pieces that are too wide
 /// may start.
 template <std::size_t Criteria>
-Solution<Criteria> solve(const Labelling<Criteria>& problem, std::span<const std::uint32_t> rank,
-                         const SolverLimits& limits, const Progress& progress,
-                         std::span<const Label> known = {});
+Solution<Criteria> solve(const Labelling<Criteria>& problem, const SolverLimits& limits,
+                         const Progress& progress, std::span<const Label> known = {});
 
 }  // namespace thalweg

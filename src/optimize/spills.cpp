@@ -219,14 +219,14 @@ class DepthSweep {
         until_(tin.vertex_count() + 1, kAlways) {}
 
   DepthTerms run(const std::vector<HeightEdge>& fixed, const std::vector<HeightEdge>& links,
-                 std::span<const std::uint32_t> rank) {
+                 std::span<const std::int64_t> tie) {
     auto link = links.begin();
     for (auto edge = fixed.begin(); edge != fixed.end();) {
       const double height = link == links.end() ? edge->height : std::min(edge->height, link->height);
       for (; edge != fixed.end() && edge->height == height; ++edge) unite(*edge);
       for (; link != links.end() && link->height == height; ++link) activate(*link);
     }
-    return {{std::move(found_), std::move(weight_), rank}, constant_};
+    return {{std::move(found_), std::move(weight_), tie}, constant_};
   }
 
  private:
@@ -336,12 +336,12 @@ class DepthSweep {
 
 DepthTerms find_depth_terms(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                             std::span<const std::uint32_t> owner, double metres_per_unit,
-                            std::span<const std::uint32_t> rank, const Progress& progress) {
+                            std::span<const std::int64_t> tie, const Progress& progress) {
   std::vector<HeightEdge> fixed = fixed_edges(tin, owner, progress);
   std::vector<HeightEdge> links = helpful_diagonals(tin, quadrilaterals);
   for (std::vector<HeightEdge>* const edges : {&fixed, &links}) sort_by_place(tin, *edges);
   progress.check();
-  return DepthSweep(tin, metres_per_unit).run(fixed, links, rank);
+  return DepthSweep(tin, metres_per_unit).run(fixed, links, tie);
 }
 
 }  // namespace thalweg

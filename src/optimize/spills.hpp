@@ -38,6 +38,6 @@ struct DepthTerms {
 };
 DepthTerms find_depth_terms(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                             std::span<const std::uint32_t> owner, double metres_per_unit,
-                            std::span<const std::uint32_t> rank, const Progress& progress);
+                            std::span<const std::int64_t> tie, const Progress& progress);
 
 }  // namespace thalweg

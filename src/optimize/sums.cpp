@@ -6,6 +6,7 @@
 // is added at once.
 #include "optimize/sums.hpp"
 
+#include "base/parallel.hpp"
 #include "optimize/vertex_terms.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -15,12 +16,17 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace thalweg {
 
 namespace {
+
+constexpr std::size_t kSumBlock = 1 << 15;
 
 /// A term in steps, weighted; or, with a limit, 1 if it is beyond it and 0 if not.
 struct Measure {
@@ -95,7 +101,7 @@ class SumSink {
 
  private:
   void add(std::uint32_t q, std::int64_t steps) {
-    std::atomic_ref(labelling_.unary[q].level[level_]).fetch_add(steps, std::memory_order_relaxed);
+    std::atomic_ref(labelling_.unary.levels()[q][level_]).fetch_add(steps, std::memory_order_relaxed);
   }
 
   Labelling<Criteria>& labelling_;
@@ -107,14 +113,17 @@ class SumSink {
 
 /// No sum of costs of the level, over whatever labels, may leave the range of 64 bits.
 template <std::size_t Criteria>
-void refuse_overflow(const Labelling<Criteria>& labelling, std::size_t level, const Objective& objective) {
-  double most = 0;
-  for (const Cost<Criteria>& cost : labelling.unary) {
-    most += std::abs(static_cast<double>(cost.level[level]));
-  }
-  for (const Weight<Criteria>& weight : labelling.weight) {
-    most += std::abs(static_cast<double>(weight[level])) / 2;
-  }
+void refuse_overflow(const Labelling<Criteria>& labelling, std::size_t level, const Objective& objective,
+                     const Progress& progress) {
+  const auto sum_of = [&](std::span<const Weight<Criteria>> values) {
+    std::vector<double> parts((values.size() + kSumBlock - 1) / kSumBlock);
+    for_each_block(values.size(), kSumBlock, progress, [&](std::size_t begin, std::size_t end) {
+      double& sum = parts[begin / kSumBlock];
+      for (std::size_t i = begin; i < end; ++i) sum += std::abs(static_cast<double>(values[i][level]));
+    });
+    return std::accumulate(parts.begin(), parts.end(), 0.0);
+  };
+  double most = sum_of(labelling.unary.levels()) + sum_of(labelling.weight) / 2;
   for (std::size_t i = 0; i < labelling.tables.size(); ++i) {
     double largest = 0;
     for (const Weight<Criteria>& entry : labelling.tables.entries(i)) {
@@ -195,7 +204,7 @@ WideSteps add_objective(const TermScan& scan, const Objective& objective, std::s
                           labelling, progress);
   }
   labelling.tables.index(labelling.size());
-  refuse_overflow(labelling, level, objective);
+  refuse_overflow(labelling, level, objective, progress);
   return delaunay;
 }
 
@@ -413,9 +422,9 @@ WideSteps add_forced_labels(const SpokedStar& star, VertexTerm term, Measure mea
   WideSteps kept = least_of(star, term, measure);
   if (kept > 0) return kept;
   for (const std::uint32_t q : star.scope) {
-    if (least_of(star, term, measure, std::pair(q, Label::One)) > 0) ++labelling.unary[q].level[level];
+    if (least_of(star, term, measure, std::pair(q, Label::One)) > 0) ++labelling.unary.levels()[q][level];
     if (least_of(star, term, measure, std::pair(q, Label::Zero)) == 0) continue;
-    --labelling.unary[q].level[level];
+    --labelling.unary.levels()[q][level];
     ++kept;
   }
   return kept;
@@ -438,7 +447,7 @@ WideSteps add_wide(const ExcessOptions& options, VertexTerm term, double sign, s
 template <std::size_t Criteria>
 std::int64_t count_excess(const TermScan& scan, const Objective& objective, const ExcessOptions& options,
                           std::size_t level, Labelling<Criteria>& labelling, const Progress& progress) {
-  for (Cost<Criteria>& cost : labelling.unary) cost.level[level] = 0;
+  for (Weight<Criteria>& levels : labelling.unary.levels()) levels[level] = 0;
   for (Weight<Criteria>& weight : labelling.weight) weight[level] = 0;
   labelling.tables.clear_level(level);
   const Declaration& declaration = declaration_of(objective.parts.front().criterion);

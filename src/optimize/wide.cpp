@@ -31,9 +31,8 @@ class Improver {
   Improver(const Labelling<Criteria>& problem, std::uint32_t width_limit, const Progress& progress)
       : problem_(problem), width_limit_(width_limit), progress_(progress), times_(problem.size(), 0) {
     const std::vector<PairCost<Criteria>> pairs = pairs_of(problem);
-    edges_ = interactions(TermSum<Criteria>{problem.size(), problem.unary, pairs, {}, &problem.tables});
-    rank_.resize(problem.size());
-    std::iota(rank_.begin(), rank_.end(), std::uint32_t{0});
+    const std::vector<Cost<Criteria>> unary = problem.unary.all();
+    edges_ = interactions(TermSum<Criteria>{problem.size(), unary, pairs, {}, &problem.tables});
   }
 
   /// Pre: `label` connects what can be connected.
@@ -66,7 +65,6 @@ class Improver {
       if (label[q] == Label::Open) open.push_back(q);
     }
     const Labelling<Criteria> part = fix_labels<Criteria>(problem_, label, open);
-    const std::span<const std::uint32_t> rank = std::span(rank_).first(open.size());
     // Cuts can make a piece wider than the set promised; it keeps its labels, which connect it.
     const WideSolver<Criteria> keep = [&](const Labelling<Criteria>& piece,
                                           std::span<const std::uint32_t> variables) {
@@ -75,7 +73,7 @@ class Improver {
       kept.figures.table_entries = piece.size();
       return kept;
     };
-    Solution<Criteria> solution = decompose<Criteria>(part, rank, width_limit_, keep, progress_);
+    Solution<Criteria> solution = decompose<Criteria>(part, width_limit_, keep, progress_);
     for (std::size_t i = 0; i < open.size(); ++i) label[open[i]] = solution.label[i];
     solution.value = cost_of<Criteria>(problem_, label);
     solution.label = std::move(label);
@@ -88,7 +86,6 @@ class Improver {
   const Progress& progress_;
   std::vector<NodePair> edges_;
   std::vector<std::uint32_t> times_;  ///< by variable: how often it was kept
-  std::vector<std::uint32_t> rank_;
 };
 
 /// The labelling with all links chosen of the cuts that it fails.
@@ -105,7 +102,9 @@ std::vector<Label> connected(const Labelling<Criteria>& problem, std::vector<Lab
 template <std::size_t Criteria>
 std::int64_t least_of_level(const Labelling<Criteria>& problem, std::size_t level) {
   std::int64_t sum = 0;
-  for (const Cost<Criteria>& cost : problem.unary) sum += std::min<std::int64_t>(cost.level[level], 0);
+  for (std::size_t q = 0; q < problem.size(); ++q) {
+    sum += std::min<std::int64_t>(problem.unary[q].level[level], 0);
+  }
   if (level >= Criteria) return sum;
   for (const PairCost<Criteria>& pair : pairs_of(problem))
     sum += std::min<std::int64_t>(pair.weight[level], 0);

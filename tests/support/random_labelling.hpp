@@ -38,7 +38,7 @@ Labelling<Criteria> random_labelling(const LabellingShape& shape, Random& random
     Cost<Criteria> unary;
     for (std::size_t i = 0; i < Criteria; ++i) unary.level[i] = random.integer(-shape.range, shape.range);
     unary.level[Criteria] = 1;
-    unary.level[Criteria + 1] = random.integer(0, 1 << 20);
+    unary.level[Criteria + 1] = random.integer(1, 1 << 20);
     problem.unary.push_back(unary);
     for (const auto& [neighbour, weight] : rows[q]) {
       problem.neighbour.push_back(neighbour);

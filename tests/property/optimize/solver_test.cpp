@@ -10,22 +10,15 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
 namespace thalweg::test {
 namespace {
 
-std::vector<std::uint32_t> identity(std::size_t count) {
-  std::vector<std::uint32_t> rank(count);
-  std::iota(rank.begin(), rank.end(), std::uint32_t{0});
-  return rank;
-}
-
 template <std::size_t Criteria>
 void expect_exact(const Labelling<Criteria>& problem) {
   const Progress progress;
-  const Solution<Criteria> solution = solve<Criteria>(problem, identity(problem.size()), {}, progress);
+  const Solution<Criteria> solution = solve<Criteria>(problem, {}, progress);
   EXPECT_TRUE(connects_all(problem, solution.label));
   EXPECT_EQ(plain_cost(problem, solution.label), solution.value);
   EXPECT_EQ(solution.value, plain_minimum(problem));
@@ -35,8 +28,7 @@ void expect_exact(const Labelling<Criteria>& problem) {
 template <std::size_t Criteria>
 bool expect_bracket(const Labelling<Criteria>& problem, std::uint32_t width, std::uint64_t effort) {
   const Progress progress;
-  const Solution<Criteria> solution =
-      solve<Criteria>(problem, identity(problem.size()), {width, effort}, progress);
+  const Solution<Criteria> solution = solve<Criteria>(problem, {width, effort}, progress);
   const Cost<Criteria> best = plain_minimum(problem);
   EXPECT_TRUE(connects_all(problem, solution.label));
   EXPECT_EQ(plain_cost(problem, solution.label), solution.value);
@@ -174,7 +166,7 @@ TEST(Solver, TiesThroughoutKeepLabelsZero) {
     problem.unary.push_back({{degree, 1, 7}});
   }
   problem.tables.index(problem.size());
-  const Solution<1> solution = solve<1>(problem, identity(problem.size()), {8, 2'000'000'000}, Progress());
+  const Solution<1> solution = solve<1>(problem, {8, 2'000'000'000}, Progress());
   EXPECT_EQ(std::ranges::count(solution.label, Label::One), 0);
   EXPECT_EQ(solution.bound, solution.value);
   EXPECT_LT(solution.figures.table_entries, 1'000'000U);
@@ -200,7 +192,7 @@ TEST(RoofDuality, FixesWhatEveryOptimumHas) {
       Labelling<1> other_way =
           problem;  // with the other label made so dear that it costs more than all the rest
       const std::int64_t dear = 1000;
-      other_way.unary[q].level[0] += dual.label[q] == Label::One ? dear : -dear;
+      other_way.unary.levels()[q][0] += dual.label[q] == Label::One ? dear : -dear;
       const std::int64_t with_other =
           plain_minimum(other_way).level[0] + (dual.label[q] == Label::One ? 0 : dear);
       EXPECT_GT(with_other, best);
