@@ -18,15 +18,15 @@ std::vector<Cut> failed_cuts(std::span<const Link> links, std::size_t node_count
   for (std::uint32_t q = 0; q < links.size(); ++q) {
     if (!links[q].exists()) continue;
     components.unite(links[q].a, links[q].b);
-    if (labels[q] == links[q].helpful) parts.unite(links[q].a, links[q].b);
+    if (labels[q] == links[q].helpful()) parts.unite(links[q].a, links[q].b);
   }
   std::vector<Cut> around(node_count);
   for (std::uint32_t q = 0; q < links.size(); ++q) {
     if (!links[q].exists()) continue;
     const std::uint32_t a = parts.find(links[q].a), b = parts.find(links[q].b);
     if (a == b) continue;
-    around[a].push_back({q, links[q].helpful});
-    around[b].push_back({q, links[q].helpful});
+    around[a].push_back({q, links[q].helpful()});
+    around[b].push_back({q, links[q].helpful()});
   }
   std::vector<std::uint32_t> hub(node_count, kNone);
   for (std::uint32_t part = 0; part < node_count; ++part) {
@@ -66,7 +66,7 @@ template <std::size_t Criteria>
 std::vector<Label> span_at_least_cost(const Labelling<Criteria>& problem) {
   const Cost<Criteria> zero{};
   const auto extra = [&](std::uint32_t q) {  // of the helpful label
-    return problem.link[q].helpful == Label::One ? problem.unary[q] : zero - problem.unary[q];
+    return problem.link[q].helpful() == Label::One ? problem.unary[q] : zero - problem.unary[q];
   };
   std::vector<Label> label(problem.size());
   std::vector<std::uint32_t> links;
@@ -74,7 +74,7 @@ std::vector<Label> span_at_least_cost(const Labelling<Criteria>& problem) {
   for (std::uint32_t q = 0; q < problem.size(); ++q) {
     label[q] = problem.unary[q] < zero ? Label::One : Label::Zero;
     if (!problem.has_link(q)) continue;
-    if (label[q] == problem.link[q].helpful) {
+    if (label[q] == problem.link[q].helpful()) {
       nodes.unite(problem.link[q].a, problem.link[q].b);
     } else {
       links.push_back(q);
@@ -83,7 +83,7 @@ std::vector<Label> span_at_least_cost(const Labelling<Criteria>& problem) {
   std::stable_sort(links.begin(), links.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return extra(a) < extra(b); });
   for (const std::uint32_t q : links) {
-    if (nodes.unite(problem.link[q].a, problem.link[q].b)) label[q] = problem.link[q].helpful;
+    if (nodes.unite(problem.link[q].a, problem.link[q].b)) label[q] = problem.link[q].helpful();
   }
   return label;
 }

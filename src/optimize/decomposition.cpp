@@ -135,14 +135,16 @@ Labelling<Criteria> fix_labels(const Labelling<Criteria>& problem, std::span<con
                                std::span<const std::uint32_t> open) {
   Reduction fixed;
   fixed.label.assign(label.begin(), label.end());
-  fixed.block.assign(problem.size(), kNone);
+  std::vector<std::uint32_t> undecided;
   fixed.nodes = UnionFind(problem.node_count);
   for (std::size_t q = 0; q < problem.size(); ++q) {
     if (!problem.has_link(q)) continue;
     const Link& link = problem.link[q];
-    if (label[q] == Label::Open) fixed.block[q] = 0;
-    if (label[q] == link.helpful) fixed.nodes.unite(link.a, link.b);
+    if (label[q] == Label::Open) undecided.push_back(static_cast<std::uint32_t>(q));
+    if (label[q] == link.helpful()) fixed.nodes.unite(link.a, link.b);
   }
+  const std::vector<std::uint32_t> one_block(undecided.size(), 0);
+  fixed.links = LinkBlocks(problem.size(), std::move(undecided), one_block);
   std::vector<std::uint32_t> node(problem.node_count), index(problem.size());
   for (std::uint32_t i = 0; i < node.size(); ++i) node[i] = fixed.nodes.find(i);
   for (std::uint32_t i = 0; i < open.size(); ++i) index[open[i]] = i;

@@ -203,7 +203,7 @@ class Writer {
   void write_link(std::size_t b, std::size_t i) {
     const LinkBlock& block = blocks_[b];
     const std::uint32_t q = block.variable[i];
-    const int unhelpful = problem_.connectivity().link[q].helpful == Label::One ? 0 : 1;
+    const int unhelpful = problem_.connectivity().link[q].helpful() == Label::One ? 0 : 1;
     const auto& [first, second] = block.ends[i];
     for (const auto& [node, next] : {NodePair{first, second}, NodePair{second, first}}) {
       if (node == block.sink()) continue;

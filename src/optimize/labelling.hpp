@@ -18,12 +18,18 @@ namespace thalweg {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// An edge between two nodes of a multigraph that exists while its variable has the label `helpful`.
+/// An edge between two nodes of a multigraph that exists while its variable has the label `helpful`: One if
+/// the smaller node comes first.
 struct Link {
-  std::uint32_t a = kNone;  ///< kNone: the variable has no edge
+  std::uint32_t a = kNone;  ///< kNone, or b: the variable has no edge
   std::uint32_t b = kNone;
-  Label helpful = Label::One;
+
+  Link() = default;
+  Link(std::uint32_t one, std::uint32_t other, Label helpful)
+      : a(helpful == Label::One ? std::min(one, other) : std::max(one, other)),
+        b(helpful == Label::One ? std::max(one, other) : std::min(one, other)) {}
   [[nodiscard]] bool exists() const { return a != b; }
+  [[nodiscard]] Label helpful() const { return a < b ? Label::One : Label::Zero; }
 };
 
 /// What label 1 of each variable costs by itself: its levels, and where the variable is a diagonal, one flip

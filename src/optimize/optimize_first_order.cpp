@@ -13,7 +13,9 @@
 //    until it counts those of the solution right, and all that depends on it is done again.
 // 5. What is reported of a criterion after one that is not proved optimal is no more than what no labels
 // beat.
+#include "base/release.hpp"
 #include "optimize/conflict.hpp"
+#include "optimize/declaration.hpp"
 #include "optimize/first_order_problem.hpp"
 #include "optimize/piece.hpp"
 #include "optimize/pit_terms.hpp"
@@ -75,7 +77,18 @@ class Run {
   static FirstOrderProblem<Criteria> begin(const Tin& tin, std::span<const Quadrilateral> quadrilaterals,
                                            const OptimizeOptions& options, Progress& progress) {
     progress.start_phase("weigh diagonals");
-    return build_problem<Criteria>(tin, quadrilaterals, options, progress);
+    auto problem = build_problem<Criteria>(tin, quadrilaterals, options, progress);
+    // Where sums are all that counts, their terms are in place: nobody asks for owners again.
+    if (std::ranges::all_of(problem.sums, is_plain_sum)) release(problem.owner);
+    return problem;
+  }
+
+  static bool is_plain_sum(const Objective& objective) {
+    const auto of_vertices = [](const Objective::Part& part) {
+      return declaration_of(part.criterion).vertex != nullptr;
+    };
+    return !objective.is_extreme() && !objective.is_of_pits() &&
+           std::ranges::none_of(objective.parts, of_vertices);
   }
 
   /// Levels up to and with an extreme, some limit set, as a problem of their own: later levels are empty.
@@ -281,7 +294,7 @@ class Run {
     std::vector<PitLink> links;
     for (std::uint32_t q = 0; q < problem_.plateaus.link.size(); ++q) {
       const Link& link = problem_.plateaus.link[q];
-      if (link.exists()) links.push_back({link.a, link.b, {q, link.helpful}});
+      if (link.exists()) links.push_back({link.a, link.b, {q, link.helpful()}});
     }
     return {std::move(links), std::vector<std::int64_t>(problem_.plateaus.node_count, to_steps(1)),
             problem_.labelling.unary.ties()};

@@ -73,16 +73,16 @@ Labelling<Criteria> restrict_to(const Labelling<Criteria>& problem, const Reduct
     }
     part.unary.push_back(unary);
     part.first.push_back(static_cast<std::uint32_t>(part.neighbour.size()));
-    if (fixed.block[q] == kNone) continue;
+    const std::uint32_t block = fixed.links.of(q);
+    if (block == kNone) continue;
     const auto number_of = [&](std::uint32_t end) {
       const auto next = static_cast<std::uint32_t>(number.size());
-      return number.try_emplace({fixed.block[q], node[end]}, next).first->second;
+      return number.try_emplace({block, node[end]}, next).first->second;
     };
     part.link.resize(count);
-    Link& link = part.link[part.unary.size() - 1];
-    link = problem.link[q];
-    link.a = number_of(link.a);
-    link.b = number_of(link.b);
+    const Link& link = problem.link[q];
+    const std::uint32_t a = number_of(link.a), b = number_of(link.b);
+    part.link[part.unary.size() - 1] = Link(a, b, link.helpful());
   }
   part.node_count = static_cast<std::uint32_t>(number.size());
   restrict_tables(problem.tables, fixed, selection, part.tables);

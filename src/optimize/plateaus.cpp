@@ -169,7 +169,7 @@ std::size_t count_pits(const PlateauGraph& graph, std::span<const Label> labels)
   std::size_t components = graph.node_count;
   for (std::size_t q = 0; q < graph.link.size(); ++q) {
     const Link& link = graph.link[q];
-    if (!link.exists() || labels[q] == other(link.helpful)) continue;
+    if (!link.exists() || labels[q] == other(link.helpful())) continue;
     components -= nodes.unite(link.a, link.b) ? 1 : 0;
   }
   return components - 1;

@@ -82,7 +82,7 @@ class StepWriter {
       if (blocks.size[blocks.block[i]] > 1) continue;
       is_bridge_[variable[i]] = true;
       out_ << "cut";
-      write_literal(variable[i], problem_.link[variable[i]].helpful);
+      write_literal(variable[i], problem_.link[variable[i]].helpful());
       out_ << '\n';
     }
   }

@@ -55,7 +55,6 @@ class Reducer {
   Reducer(const Labelling<Criteria>& problem, const Progress& progress)
       : problem_(problem), progress_(progress), queued_(problem.size(), 0) {
     out_.label.assign(problem.size(), Label::Open);
-    out_.block.assign(problem.size(), kNone);
     out_.nodes = UnionFind(problem.node_count);
   }
 
@@ -112,7 +111,7 @@ class Reducer {
           linked_.insert(linked_.end(), rest.linked.begin(), rest.linked.end());
         });
     for (const std::uint32_t q : linked_) {
-      if (out_.label[q] == problem_.link[q].helpful) unite_ends(q);
+      if (out_.label[q] == problem_.link[q].helpful()) unite_ends(q);
     }
     for (const std::uint32_t q : again_) enqueue(q);
     again_ = {};
@@ -130,7 +129,7 @@ class Reducer {
     const auto look_at = [&](std::uint32_t q) {
       const Label label = verdict(q, label_of);
       if (label == Label::Open) return;
-      if (problem_.has_link(q) && label != problem_.link[q].helpful) return rest.again.push_back(q);
+      if (problem_.has_link(q) && label != problem_.link[q].helpful()) return rest.again.push_back(q);
       out_.label[q] = label;
       for_each_neighbour(q, wake);
     };
@@ -176,7 +175,7 @@ class Reducer {
       if (out_.label[q] != Label::Open) continue;
       const Label label = verdict(q, label_of);
       if (label == Label::Open) continue;
-      if (needs_link(q) && label != problem_.link[q].helpful) continue;
+      if (needs_link(q) && label != problem_.link[q].helpful()) continue;
       fix(q, label);
     }
     work_.clear();
@@ -184,7 +183,7 @@ class Reducer {
 
   void fix(std::uint32_t q, Label label) {
     out_.label[q] = label;
-    if (problem_.has_link(q) && label == problem_.link[q].helpful) unite_ends(q);
+    if (problem_.has_link(q) && label == problem_.link[q].helpful()) unite_ends(q);
     for_each_neighbour(q, [this](std::uint32_t p) { enqueue(p); });
   }
 
@@ -194,22 +193,20 @@ class Reducer {
     const auto gone = [&](std::uint32_t q) {
       if (out_.label[q] == Label::Open && needs_link(q)) return false;
       enqueue(q);
-      out_.block[q] = kNone;
       return true;
     };
     std::erase_if(linked_, gone);
     const std::vector<NodePair> edges = contracted();
-    const Blocks blocks = find_blocks(edges, contracted_nodes_);
+    Blocks blocks = find_blocks(edges, contracted_nodes_);
     out_.block_count = static_cast<std::uint32_t>(blocks.size.size());
     bool changed = !work_.empty();
     for (std::size_t i = 0; i < linked_.size(); ++i) {
       const std::uint32_t q = linked_[i];
-      out_.block[q] = blocks.block[i];
       if (blocks.size[blocks.block[i]] > 1) continue;
-      out_.block[q] = kNone;
-      fix(q, problem_.link[q].helpful);
+      fix(q, problem_.link[q].helpful());
       changed = true;
     }
+    if (!changed) out_.links = LinkBlocks(problem_.size(), std::move(linked_), std::move(blocks.block));
     return changed;
   }
 
@@ -266,15 +263,13 @@ class Splitter {
         reached_(problem.size(), 0),
         link_block_reached_(reduction.block_count, 0),
         table_reached_(problem.tables.size(), 0) {
-    for (const std::uint32_t block : reduction.block) {
-      if (block != kNone) ++first_of_link_block_[block + 1];
-    }
+    const std::span<const std::uint32_t> linked = reduction.links.variables();
+    const std::span<const std::uint32_t> block = reduction.links.blocks();
+    for (const std::uint32_t b : block) ++first_of_link_block_[b + 1];
     std::partial_sum(first_of_link_block_.begin(), first_of_link_block_.end(), first_of_link_block_.begin());
     in_link_blocks_.resize(first_of_link_block_.back());
     std::vector<std::uint32_t> fill(first_of_link_block_.begin(), first_of_link_block_.end() - 1);
-    for (std::uint32_t q = 0; q < problem.size(); ++q) {
-      if (reduction.block[q] != kNone) in_link_blocks_[fill[reduction.block[q]]++] = q;
-    }
+    for (std::size_t i = 0; i < linked.size(); ++i) in_link_blocks_[fill[block[i]]++] = linked[i];
   }
 
   Partition run(const Progress& progress) {
@@ -303,7 +298,8 @@ class Splitter {
         });
     for (const std::uint32_t q : outside) {
       reached_[q] = 0;
-      if (reduction_.block[q] != kNone) link_block_reached_[reduction_.block[q]] = 0;
+      const std::uint32_t block = reduction_.links.of(q);
+      if (block != kNone) link_block_reached_[block] = 0;
     }
     std::vector<std::uint32_t> none;
     for (const std::uint32_t seed : outside) {
@@ -352,11 +348,12 @@ class Splitter {
       else
         std::for_each(scope.begin(), scope.end(), reach);
     }
-    if (reduction_.block[q] == kNone) return;
-    const std::span<const std::uint32_t> linked = link_block(reduction_.block[q]);
+    const std::uint32_t block = reduction_.links.of(q);
+    if (block == kNone) return;
+    const std::span<const std::uint32_t> linked = link_block(block);
     if (!ours.contains(linked.front()) || !ours.contains(linked.back())) {
       reach(ours.contains(linked.front()) ? linked.back() : linked.front());  // which ends it
-    } else if (std::exchange(link_block_reached_[reduction_.block[q]], 1) == 0) {
+    } else if (std::exchange(link_block_reached_[block], 1) == 0) {
       std::for_each(linked.begin(), linked.end(), reach);
     }
   }

@@ -7,14 +7,40 @@
 
 #include <thalweg/base/progress.hpp>
 
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
 
+/// Variables whose links are undecided, and for each the set of links that must stay connected together.
+class LinkBlocks {
+ public:
+  LinkBlocks() = default;
+  /// Pre: `variables` ascend, below `count`; one block each.
+  LinkBlocks(std::size_t count, std::vector<std::uint32_t> variables, std::vector<std::uint32_t> blocks)
+      : variables_(std::move(variables)), blocks_(std::move(blocks)), listed_(variables_.empty() ? 0 : count) {
+    for (const std::uint32_t q : variables_) listed_[q] = true;
+  }
+  /// The block of a variable, or kNone. Complexity: constant for most variables, log n for those in blocks.
+  [[nodiscard]] std::uint32_t of(std::uint32_t variable) const {
+    if (listed_.empty() || !listed_[variable]) return kNone;
+    return blocks_[static_cast<std::size_t>(std::ranges::lower_bound(variables_, variable) -
+                                            variables_.begin())];
+  }
+  [[nodiscard]] std::span<const std::uint32_t> variables() const { return variables_; }
+  [[nodiscard]] std::span<const std::uint32_t> blocks() const { return blocks_; }
+
+ private:
+  std::vector<std::uint32_t> variables_, blocks_;
+  std::vector<bool> listed_;  ///< by variable
+};
+
 struct Reduction {
   std::vector<Label> label;  ///< by variable
-  std::vector<std::uint32_t>
-      block;  ///< by variable: the set of links that must stay connected together, or kNone
+  LinkBlocks links;
   std::uint32_t block_count = 0;
   UnionFind nodes{0};  ///< nodes that chosen links connect
 };

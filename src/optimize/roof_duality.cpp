@@ -144,7 +144,7 @@ RoofDual find_roof_dual(const Labelling<Criteria>& problem, const Progress& prog
   std::vector<std::uint32_t> harmful;
   for (std::uint32_t q = 0; q < problem.size(); ++q) {
     if (!problem.has_link(q)) continue;
-    const std::uint32_t unhelpful = literal(q, other(problem.link[q].helpful));
+    const std::uint32_t unhelpful = literal(q, other(problem.link[q].helpful()));
     if (all[unhelpful]) harmful.push_back(unhelpful);
   }
   const std::vector<bool> kept =

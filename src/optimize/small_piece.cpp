@@ -49,7 +49,7 @@ bool SmallPiece<Criteria>::load(const Labelling<Criteria>& problem, const Reduct
   pairs_.clear();
   for (std::uint32_t j = 0; j < count_; ++j) {
     const std::uint32_t q = selection.variables[j];
-    if (fixed.block[q] != kNone) return false;
+    if (fixed.links.of(q) != kNone) return false;
     unary_[j] = problem.unary[q];
     adjacent_[j] = 0;
     for (std::size_t i = problem.first[q]; i < problem.first[q + 1]; ++i) {

@@ -178,7 +178,7 @@ PlateauGraph find_spills(const Tin& tin, std::span<const Quadrilateral> quadrila
     for (; edge != fixed.end() && edge->height <= link->height; ++edge) sets.unite(edge->a, edge->b);
     for (auto at = link; at != end; ++at) {
       const std::uint32_t a = sets.find(at->a), b = sets.find(at->b);
-      if (a != b) graph.link[at->quadrilateral] = {node_of_set(a), node_of_set(b), at->label};
+      if (a != b) graph.link[at->quadrilateral] = Link(node_of_set(a), node_of_set(b), at->label);
     }
     for (; link != end; ++link) sets.unite(link->a, link->b);
     for (const std::uint32_t set : touched) node[set] = kNone;

@@ -78,7 +78,7 @@ std::size_t plain_components(const Labelling<Criteria>& problem, const std::vect
   std::size_t components = name.size();
   for (std::size_t q = 0; q < problem.link.size(); ++q) {
     const Link& link = problem.link[q];
-    if (link.a == link.b || (label[q] != Label::Open && label[q] != link.helpful)) continue;
+    if (link.a == link.b || (label[q] != Label::Open && label[q] != link.helpful())) continue;
     const std::size_t from = name[link.a], to = name[link.b];
     if (from == to) continue;
     --components;
