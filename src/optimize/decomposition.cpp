@@ -11,6 +11,7 @@
 #include "optimize/small_piece.hpp"
 
 #include <algorithm>
+#include <mutex>
 
 namespace thalweg {
 
@@ -36,7 +37,6 @@ class Decomposition {
     node_.resize(problem_.node_count);
     for (std::uint32_t i = 0; i < node_.size(); ++i) node_[i] = reduction_.nodes.find(i);
     index_.resize(problem_.size());
-    outcome_.resize(parts_.size());
     std::vector<std::uint32_t> large, small;
     for (std::uint32_t i = 0; i < parts_.size(); ++i) (part(i).size() >= kLarge ? large : small).push_back(i);
     solve_parts(large, 1);
@@ -45,9 +45,20 @@ class Decomposition {
   }
 
  private:
+  /// Of some pieces together.
   struct Outcome {
     Cost<Criteria> gap;
     SolverFigures figures;
+
+    void add(const Cost<Criteria>& more_gap, const SolverFigures& more) {
+      gap += more_gap;
+      figures.width = std::max(figures.width, more.width);
+      figures.table_entries += more.table_entries;
+      figures.used_tables = figures.used_tables || more.used_tables;
+      figures.used_forests = figures.used_forests || more.used_forests;
+      figures.used_roof_duality = figures.used_roof_duality || more.used_roof_duality;
+      figures.used_relaxation = figures.used_relaxation || more.used_relaxation;
+    }
   };
 
   [[nodiscard]] std::span<std::uint32_t> part(std::size_t i) {
@@ -57,20 +68,21 @@ class Decomposition {
   void solve_parts(std::span<const std::uint32_t> parts, std::size_t batch) {
     for_each_block(parts.size(), batch, progress_, [&](std::size_t begin, std::size_t end) {
       SmallPiece<Criteria> small;
-      for (std::size_t i = begin; i < end; ++i) solve_part(parts[i], small);
+      Outcome outcome;
+      for (std::size_t i = begin; i < end; ++i) solve_part(parts[i], small, outcome);
+      const std::scoped_lock lock(mutex_);
+      outcome_.add(outcome.gap, outcome.figures);
     });
   }
 
-  void solve_part(std::size_t i, SmallPiece<Criteria>& small) {
+  void solve_part(std::size_t i, SmallPiece<Criteria>& small, Outcome& outcome) {
     const std::span<std::uint32_t> variables = part(i);
     std::sort(variables.begin(), variables.end(),
               [&](std::uint32_t a, std::uint32_t b) { return problem_.before(a, b); });
     for (std::uint32_t j = 0; j < variables.size(); ++j) index_[variables[j]] = j;
     const Selection selection{variables, index_};
     if (small.solve(problem_, reduction_, selection, width_limit_)) {
-      outcome_[i].figures.width = small.width();
-      outcome_[i].figures.table_entries = small.table_entries();
-      outcome_[i].figures.used_tables = true;
+      outcome.add({}, {.width = small.width(), .table_entries = small.table_entries(), .used_tables = true});
       for (std::size_t j = 0; j < variables.size(); ++j) label_[variables[j]] = small.label()[j];
       return;
     }
@@ -78,14 +90,14 @@ class Decomposition {
     std::vector<Label> label;
     if (auto exact = solve_exactly(piece, width_limit_, progress_)) {
       label = std::move(exact->label);
-      outcome_[i].figures.width = exact->width;
-      outcome_[i].figures.table_entries = exact->table_entries;
-      outcome_[i].figures.used_tables = exact->table_entries > 0;
-      outcome_[i].figures.used_forests = exact->table_entries == 0;
+      outcome.add({}, {.width = exact->width,
+                       .table_entries = exact->table_entries,
+                       .used_tables = exact->table_entries > 0,
+                       .used_forests = exact->table_entries == 0});
     } else {
       Solution<Criteria> wide = solve_wide_(piece, variables);
       label = std::move(wide.label);
-      outcome_[i] = {wide.value - wide.bound, wide.figures};
+      outcome.add(wide.value - wide.bound, wide.figures);
     }
     for (std::size_t j = 0; j < variables.size(); ++j) label_[variables[j]] = label[j];
   }
@@ -93,20 +105,14 @@ class Decomposition {
   Solution<Criteria> gather() {
     Solution<Criteria> solution;
     SolverFigures& figures = solution.figures;
+    figures = outcome_.figures;
     figures.pieces = parts_.size();
     figures.fixed_by_elimination = problem_.size() - parts_.variable.size();
     solution.label = std::move(label_);
-    solution.value = solution.bound = cost_of<Criteria>(problem_, solution.label);
+    solution.value = cost_of<Criteria>(problem_, solution.label);
+    solution.bound = solution.value - outcome_.gap;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const SolverFigures& own = outcome_[i].figures;
-      solution.bound -= outcome_[i].gap;
       figures.largest_piece = std::max(figures.largest_piece, part(i).size());
-      figures.width = std::max(figures.width, own.width);
-      figures.table_entries += own.table_entries;
-      figures.used_tables = figures.used_tables || own.used_tables;
-      figures.used_forests = figures.used_forests || own.used_forests;
-      figures.used_roof_duality = figures.used_roof_duality || own.used_roof_duality;
-      figures.used_relaxation = figures.used_relaxation || own.used_relaxation;
     }
     return solution;
   }
@@ -119,7 +125,8 @@ class Decomposition {
   Partition parts_;
   std::vector<Label> label_;  ///< completed piece by piece
   std::vector<std::uint32_t> node_, index_;
-  std::vector<Outcome> outcome_;  ///< by part
+  Outcome outcome_;
+  std::mutex mutex_;  ///< of the outcome
 };
 
 }  // namespace

@@ -77,6 +77,12 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
   labelling.unary.resize(quadrilaterals.size());
   problem.quadrilaterals = quadrilaterals.size();
   find_ties(tin, quadrilaterals, labelling.unary.ties(), progress);
+  // Before the sums, which stay: what is needed on the way is given back.
+  const auto counts_pits = [](const Objective& objective) { return objective.is(Criterion::LocalMinima); };
+  if (std::any_of(options.criteria.begin(), options.criteria.end(), counts_pits)) {
+    problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);
+  }
+  if (problem.depth_first) problem.spills = find_spills(tin, quadrilaterals, owner, progress);
   progress.advance(0.2);
   if (!problem.sums.empty()) {
     TermScan::Rows rows = scan.lay_out_rows(progress);
@@ -93,11 +99,6 @@ FirstOrderProblem<Criteria> build_problem(const Tin& tin, std::span<const Quadri
     }
     progress.advance(0.3 + 0.6 * static_cast<double>(level + 1) / static_cast<double>(problem.sums.size()));
   }
-  const auto counts_pits = [](const Objective& objective) { return objective.is(Criterion::LocalMinima); };
-  if (std::any_of(options.criteria.begin(), options.criteria.end(), counts_pits)) {
-    problem.plateaus = find_plateaus(tin, quadrilaterals, owner, progress);
-  }
-  if (problem.depth_first) problem.spills = find_spills(tin, quadrilaterals, owner, progress);
   progress.advance(1);
   return problem;
 }

@@ -42,7 +42,6 @@ class TermScan {
 
  private:
   static constexpr std::size_t kBlock = 1024;
-  static constexpr std::size_t kEdgeBlock = 4096;  ///< triangles: larger, so that few neighbours are outside
 
   [[nodiscard]] double left_on_rim(const Progress& progress) const;
   [[nodiscard]] double of_triangle(const Declaration& declaration, const Face& face) const {
@@ -75,7 +74,7 @@ template <class Body, class Sink>
 void TermScan::scan_edges(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
                           const Progress& progress) const {
   tbb::enumerable_thread_specific<EdgeBatch<Body>> batches(faces_, declaration, first);
-  for_each_block(faces_.tin.triangle_count(), kEdgeBlock, progress, [&](std::size_t begin, std::size_t end) {
+  for_each_block(faces_.tin.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     typename Sink::Block block(sink);
     batches.local().pass(begin, end, block);
   });
