@@ -82,6 +82,7 @@ std::vector<Passage> find_passages(const Survey& survey, const Drawing& drawing,
 void append_crossings(Drawing& drawing) {
   MergedVertices& vertices = drawing.vertices;
   const std::size_t first = vertices.xy.size();
+  if (!drawing.noding.crossings.empty()) vertices.along_curve.clear();
   vertices.xy.insert(vertices.xy.end(), drawing.noding.crossings.begin(), drawing.noding.crossings.end());
   vertices.origins.resize(vertices.xy.size());
   for (std::size_t i = drawing.passages.size(); i-- > 0;) {

@@ -126,6 +126,7 @@ struct Plan {
   std::vector<Point2> xy;
   std::vector<double> z;
   std::vector<VertexOrigin> origins;
+  std::vector<std::uint32_t> along_curve;  // the vertices along a curve; empty: that is not known
   std::vector<std::uint32_t> now_of;  // for each vertex of the drawing its number; kInvalid: dropped
 };
 
@@ -144,12 +145,14 @@ void keep_vertices(Plan& plan, const std::vector<bool>& keep) {
   plan.xy.resize(count);
   plan.z.resize(count);
   plan.origins.resize(count);
+  if (count < keep.size()) plan.along_curve.clear();
   for (std::uint32_t& now : plan.now_of) now = now == VertexId::kInvalid ? now : number[now];
 }
 
 // Numbers all vertices by a space-filling curve.
 void sort_along_curve(Plan& plan, const Progress& progress) {
-  const std::vector<std::uint32_t> order = hilbert_order(plan.xy, progress);
+  std::vector<std::uint32_t> order = std::move(plan.along_curve);
+  if (order.empty()) order = hilbert_order(plan.xy, progress);
   const auto sorted = [&](const auto& values) {
     std::remove_cvref_t<decltype(values)> moved;
     reserve_large(moved, values.size());
@@ -287,6 +290,7 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   Plan plan{.xy = std::move(drawing.vertices.xy),
             .z = std::move(heights.z),
             .origins = std::move(drawing.vertices.origins),
+            .along_curve = std::move(drawing.vertices.along_curve),
             .now_of = {}};
   plan.now_of.resize(plan.xy.size());
   for (std::size_t v = 0; v < plan.now_of.size(); ++v) plan.now_of[v] = static_cast<std::uint32_t>(v);
@@ -296,6 +300,12 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   for (ConstraintEdge& edge : edges) {
     edge.a = VertexId{plan.now_of[edge.a.index()]};
     edge.b = VertexId{plan.now_of[edge.b.index()]};
+  }
+  if (ground.mode == GroundMode::Hull && !has_lakes(survey)) {
+    // Nobody asks any more where lines pass.
+    release(drawing.passages);
+    release(drawing.pieces);
+    drawing.noding = {};
   }
   ground.tin = detail::triangulate(std::move(plan.xy), std::move(plan.z), edges,
                                    along_curve ? detail::PointOrder::AlongCurve : detail::PointOrder::Any,

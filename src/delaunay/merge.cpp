@@ -1,8 +1,8 @@
 // Distinct positions.
 //
 // 1. All positions, points first, then line vertices, are sorted by (x, y, index). Without snapping these are
-//    only those points that may be there twice, as a set tells that keeps one bit of each position, or that
-//    are near a line.
+//    only those points that share a cell of the curve along which all are put in order, or that are near a
+//    line.
 // 2. Points without snapping: each run of equal positions is one group.
 // 3. With snapping a sweep in that order keeps the representatives within reach in x, sorted by y; two of
 // them
@@ -21,15 +21,15 @@
 #include "box_tree.hpp"
 #include "noding.hpp"
 #include "provenance.hpp"
+#include "spatial_order.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/base/raw_vector.hpp>
 
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -185,54 +185,27 @@ std::vector<Placed> join_points(std::span<const Placed> sorted, std::span<const 
   return others;
 }
 
-// A set of positions of which one bit each is kept: what it holds it has, and some more.
-class PositionMarks {
- public:
-  explicit PositionMarks(std::size_t count) : words_(std::bit_ceil(kBitsAPosition * count / kWord + 2)) {}
-  /// Whether the set had it already. Threads may call it at the same time.
-  bool insert(Point2 p) {
-    const std::uint64_t bit = place_of(p);
-    const std::atomic_ref<std::uint64_t> word(words_[bit / kWord]);
-    return (word.fetch_or(kOne << bit % kWord, std::memory_order_relaxed) >> bit % kWord & 1U) != 0;
-  }
-  [[nodiscard]] bool contains(Point2 p) const {
-    const std::uint64_t bit = place_of(p);
-    return (words_[bit / kWord] >> bit % kWord & 1U) != 0;
-  }
-
- private:
-  static constexpr std::uint64_t kBitsAPosition = 8, kWord = 64, kOne = 1;
-  [[nodiscard]] std::uint64_t place_of(Point2 p) const {
-    // splitmix64's last steps: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014. The
-    // sum makes a negative zero a positive one, which it equals.
-    std::uint64_t value = std::bit_cast<std::uint64_t>(p.x + 0.0) * 0xbf58476d1ce4e5b9U;
-    value = ((value ^ value >> 32U) + std::bit_cast<std::uint64_t>(p.y + 0.0)) * 0x94d049bb133111ebU;
-    return ((value ^ value >> 29U) * 0xbf58476d1ce4e5b9U) >> (64 - std::countr_zero(kWord * words_.size()));
-  }
-
-  std::vector<std::uint64_t> words_;
-};
-
 // Points whose positions may be those of others, or within reach of a line vertex: all that are, few more.
 std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::span<const Point2> on_lines,
-                                          double reach, const Progress& progress) {
-  std::vector<Segment> spots;
-  for (const Point2 p : on_lines) spots.push_back({p, p});
-  const TouchedSquares near_lines(spots, reach);
-  PositionMarks met(points.size()), met_again(points.size());
-  for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (met.insert(points[i])) met_again.insert(points[i]);
-    }
-  });
-  return list_in_order<std::uint32_t>(
-      points.size(), kBlock, progress,
-      [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const bool near = !spots.empty() && near_lines.may_meet(box_around(points[i], 0));
-          if (near || met_again.contains(points[i])) found.push_back(static_cast<std::uint32_t>(i));
-        }
-      });
+                                           std::span<const std::uint32_t> crowded, double reach,
+                                           const Progress& progress) {
+  std::vector<std::uint32_t> found;
+  if (!on_lines.empty()) {
+    std::vector<Segment> spots;
+    for (const Point2 p : on_lines) spots.push_back({p, p});
+    const TouchedSquares near_lines(spots, reach);
+    found = list_in_order<std::uint32_t>(
+        points.size(), kBlock, progress,
+        [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& near) {
+          for (std::size_t i = begin; i < end; ++i) {
+            if (near_lines.may_meet(box_around(points[i], 0))) near.push_back(static_cast<std::uint32_t>(i));
+          }
+        });
+  }
+  std::ranges::copy_if(crowded, std::back_inserter(found), [&](std::uint32_t i) { return i < points.size(); });
+  tbb::parallel_sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 std::vector<std::uint32_t> range(std::size_t begin, std::size_t end) {
@@ -262,12 +235,13 @@ RawVector<Placed> sort_places(std::span<const Point2> positions, std::span<const
 
 // For each index the index whose position it takes.
 LargeVector<std::uint32_t> find_representatives(std::span<const Point2> all, std::size_t point_count,
-                                                double snap, double line_snap, const Progress& progress) {
+                                                std::span<const std::uint32_t> crowded, double snap,
+                                                double line_snap, const Progress& progress) {
   LargeVector<std::uint32_t> representative(all.size());
   std::iota(representative.begin(), representative.end(), 0U);
   const std::vector<std::uint32_t> to_merge =
       snap > 0 ? range(0, point_count)
-               : points_to_merge(all.first(point_count), all.subspan(point_count), line_snap, progress);
+               : points_to_merge(all.first(point_count), all.subspan(point_count), crowded, line_snap, progress);
   const std::vector<Placed> points =
       merge_in_order(sort_places(all, to_merge, progress), snap, representative, progress);
   if (point_count == all.size()) return representative;
@@ -342,8 +316,9 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   if (!survey.lines.empty()) with_lines = all_positions(survey, point_count + merged.first_of_line.back());
   const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;
   merged.pixel = snapping_pixel(all, options.resolution);
+  CurveOrder order = order_along_curve(all, progress);
   LargeVector<std::uint32_t> name = find_representatives(
-      all, point_count, options.snap, std::max(options.snap, merged.pixel / 4), progress);
+      all, point_count, order.crowded, options.snap, std::max(options.snap, merged.pixel / 4), progress);
   progress.advance(0.5);
 
   const auto origin_of = [&](std::size_t i) {
@@ -382,6 +357,11 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
     merged.xy[number(first)] = all[representative];
     merged.origins[number(first)] = origin_of(representative);
   }
+  if (merged.xy.size() < all.size()) {
+    std::erase_if(order.indices, [&](std::uint32_t i) { return name[i] != i; });
+    for (std::uint32_t& i : order.indices) i = number(i);
+  }
+  merged.along_curve = std::move(order.indices);
   merged.point_count = before[point_count / kBlock];
   for (std::size_t i = point_count / kBlock * kBlock; i < point_count; ++i) {
     merged.point_count += name[i] == i ? 1 : 0;

@@ -18,6 +18,7 @@ struct MergedVertices {
   std::vector<std::uint32_t> of_point;     ///< the vertex of each point of the survey
   std::vector<std::size_t> first_of_line;  ///< where the vertices of line l start in of_line_vertex
   std::vector<std::uint32_t> of_line_vertex;
+  std::vector<std::uint32_t> along_curve;  ///< the vertices along a Hilbert curve; empty: that is not known
 
   [[nodiscard]] std::uint32_t of_line(std::size_t line, std::size_t vertex) const {
     return of_line_vertex[first_of_line[line] + vertex];

@@ -3,12 +3,13 @@
 // 1. A point's cell in a 2^28 x 2^28 grid over the bounding box; the curve's key of a cell comes from the two
 //    bits a level, of which `flip` and `swap` say how the curve runs in the quarter at hand. A table does
 //    four levels at once.
-// 2. Sort by the key's upper half, digit by digit, then those that share it by the rest and the index.
+// 2. Sort by the key's upper 33 bits, digit by digit, then the few that share them by the rest and the index.
 // 3. Rounds (Amenta, Choi, Rote, Incremental constructions con BRIO, 2003): a mixed index decides a vertex'
 //    round, so a round is a random sample as far as the pattern of the input is concerned.
 #include "spatial_order.hpp"
 
 #include "base/large_pages.hpp"
+#include "base/ordered_blocks.hpp"
 #include "base/parallel.hpp"
 
 #include <thalweg/base/raw_vector.hpp>
@@ -75,6 +76,15 @@ struct Keyed {
   }
 };
 
+/// The upper bits of a point's key, and below them its index: what there is to sort, in one word.
+constexpr unsigned kIndexBits = 31, kUpperBits = 64 - kIndexBits;
+constexpr std::uint64_t pack(std::uint64_t key, std::size_t index) {
+  return key >> (2 * kLevels - kUpperBits) << kIndexBits | index;
+}
+constexpr std::uint32_t index_in(std::uint64_t packed) {
+  return static_cast<std::uint32_t>(packed & ((std::uint64_t{1} << kIndexBits) - 1));
+}
+
 /// A point's cell in a grid of fewer levels.
 struct CoarselyKeyed {
   std::uint32_t key;
@@ -111,34 +121,6 @@ void sort_by_digit(RawVector<Item>& items, RawVector<Item>& other, const Progres
   std::swap(items, other);
 }
 
-// By the upper 33 of the 56 bits, then what is equal in them by the rest.
-void sort_by_key(RawVector<Keyed>& keyed, const Progress& progress) {
-  constexpr unsigned kFirstBit = 23, kDigits = 3;
-  RawVector<Keyed> other(keyed.size());
-  for (unsigned digit = 0; digit < kDigits; ++digit) {
-    sort_by_digit(keyed, other, progress, [digit](const Keyed& k) {
-      return k.key >> (kFirstBit + digit * kDigitBits) & (kBuckets - 1);
-    });
-  }
-  for (std::size_t begin = 0; begin < keyed.size();) {
-    std::size_t end = begin + 1;
-    while (end < keyed.size() && keyed[end].key >> kFirstBit == keyed[begin].key >> kFirstBit) ++end;
-    if (end - begin > 1) std::sort(keyed.begin() + begin, keyed.begin() + end);
-    begin = end;
-  }
-}
-
-template <class Item>
-std::vector<std::uint32_t> indices_of(const RawVector<Item>& items, const Progress& progress) {
-  std::vector<std::uint32_t> indices;
-  reserve_large(indices, items.size());
-  indices.resize(items.size());
-  for_each_block(items.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) indices[i] = items[i].index;
-  });
-  return indices;
-}
-
 /// The grid over the points' bounding box.
 class Grid {
  public:
@@ -146,6 +128,7 @@ class Grid {
     const double side = std::max(box_.width(), box_.height());
     scale_ = side > 0 ? (1U << kLevels) / side : 0;
   }
+  [[nodiscard]] std::uint64_t key(Point2 p) const { return hilbert_key<kLevels>(column(p), row(p)); }
   [[nodiscard]] std::uint32_t column(Point2 p) const { return cell(p.x - box_.x_min); }
   [[nodiscard]] std::uint32_t row(Point2 p) const { return cell(p.y - box_.y_min); }
 
@@ -159,19 +142,82 @@ class Grid {
   double scale_ = 0;
 };
 
+/// From the order of upper bits to that of keys.
+class Settler {
+ public:
+  Settler(std::span<const Point2> points, const Grid& grid, std::span<const std::uint64_t> packed,
+          std::span<std::uint32_t> indices)
+      : points_(points), grid_(grid), packed_(packed), indices_(indices) {}
+
+  /// Writes the indices of [begin, end); those that share their upper bits where the first of them lies.
+  /// Appends the points that share a key.
+  void settle(std::size_t begin, std::size_t end, std::vector<std::uint32_t>& crowded) const {
+    std::vector<Keyed> run;
+    for (std::size_t i = begin; i < end;) {
+      std::size_t last = i + 1;
+      while (last < packed_.size() && same(i, last)) ++last;
+      if (i > 0 && same(i - 1, i)) {
+        // Part of a run that began before.
+      } else if (last == i + 1) {
+        indices_[i] = index_in(packed_[i]);
+      } else {
+        settle_run(i, last, run, crowded);
+      }
+      i = last;
+    }
+  }
+
+ private:
+  [[nodiscard]] bool same(std::size_t i, std::size_t j) const {
+    return packed_[i] >> kIndexBits == packed_[j] >> kIndexBits;
+  }
+  void settle_run(std::size_t begin, std::size_t end, std::vector<Keyed>& run,
+                  std::vector<std::uint32_t>& crowded) const {
+    run.clear();
+    for (const std::uint64_t item : packed_.subspan(begin, end - begin)) {
+      run.push_back({grid_.key(points_[index_in(item)]), index_in(item)});
+    }
+    std::sort(run.begin(), run.end());
+    for (std::size_t j = 0; j < run.size(); ++j) {
+      indices_[begin + j] = run[j].index;
+      const bool shared = (j > 0 && run[j - 1].key == run[j].key) ||
+                          (j + 1 < run.size() && run[j + 1].key == run[j].key);
+      if (shared) crowded.push_back(run[j].index);
+    }
+  }
+
+  std::span<const Point2> points_;
+  const Grid& grid_;
+  std::span<const std::uint64_t> packed_;
+  std::span<std::uint32_t> indices_;
+};
+
 }  // namespace
 
-std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
+CurveOrder order_along_curve(std::span<const Point2> points, const Progress& progress) {
   const Grid grid(points);
-  RawVector<Keyed> keyed(points.size());
+  RawVector<std::uint64_t> packed(points.size());
   for_each_block(points.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      keyed[i] = {hilbert_key<kLevels>(grid.column(points[i]), grid.row(points[i])),
-                  static_cast<std::uint32_t>(i)};
-    }
+    for (std::size_t i = begin; i < end; ++i) packed[i] = pack(grid.key(points[i]), i);
   });
-  if (!std::is_sorted(keyed.begin(), keyed.end())) sort_by_key(keyed, progress);
-  return indices_of(keyed, progress);
+  if (!std::is_sorted(packed.begin(), packed.end())) {
+    RawVector<std::uint64_t> other(points.size());
+    for (unsigned bit = kIndexBits; bit < kIndexBits + kUpperBits; bit += kDigitBits) {
+      sort_by_digit(packed, other, progress, [bit](std::uint64_t item) {
+        return item >> bit & (kBuckets - 1);
+      });
+    }
+  }
+  CurveOrder order;
+  reserve_large(order.indices, points.size());
+  order.indices.resize(points.size());
+  const Settler settler(points, grid, packed, order.indices);
+  order.crowded = list_in_order<std::uint32_t>(
+      points.size(), kBlock, progress,
+      [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& crowded) {
+        settler.settle(begin, end, crowded);
+      });
+  return order;
 }
 
 std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, const Progress& progress) {
@@ -188,7 +234,11 @@ std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, 
   });
   sort_by_digit(keyed, other, progress, [](const CoarselyKeyed& k) { return k.key & (kBuckets - 1); });
   sort_by_digit(keyed, other, progress, [](const CoarselyKeyed& k) { return k.key >> kDigitBits; });
-  return indices_of(keyed, progress);
+  std::vector<std::uint32_t> indices(keyed.size());
+  for_each_block(keyed.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) indices[i] = keyed[i].index;
+  });
+  return indices;
 }
 
 std::size_t insertion_round(std::uint32_t index) {

@@ -13,8 +13,19 @@
 
 namespace thalweg {
 
-/// Indices of the points along a Hilbert curve through their bounding box.
-std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress);
+struct CurveOrder {
+  std::vector<std::uint32_t> indices;  ///< of the points along the curve
+  /// Points that share a cell of the box's side by 2^-28 with another one: all that are at one position, and
+  /// few more.
+  std::vector<std::uint32_t> crowded;
+};
+
+/// Orders fewer than 2^31 points along a Hilbert curve through their bounding box. Complexity: linear, but for
+/// points that are much closer together than the box is wide.
+CurveOrder order_along_curve(std::span<const Point2> points, const Progress& progress);
+inline std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
+  return order_along_curve(points, progress).indices;
+}
 
 /// The same up to cells of a 2048th of the box's side, within which the order is that of the indices: enough
 /// for memory, at half the cost.

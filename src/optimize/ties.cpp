@@ -53,7 +53,8 @@ void find_ties(const Tin& tin, std::span<const Quadrilateral> quadrilaterals, st
     const Point2 p = tin.point(v);
     const auto x = std::bit_cast<std::uint64_t>((p.x - box.x_min) * per_width);
     const auto y = std::bit_cast<std::uint64_t>((p.y - box.y_min) * per_height);
-    return splitmix64(splitmix64(x) + y);
+    const std::uint64_t mixed = x * 0xbf58476d1ce4e5b9U + (y ^ (y >> 32U)) * 0x94d049bb133111ebU;
+    return (mixed ^ (mixed >> 29U)) * 0xbf58476d1ce4e5b9U;
   };
   for_each_block(quadrilaterals.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {

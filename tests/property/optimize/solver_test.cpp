@@ -107,7 +107,6 @@ TEST(Solver, BracketsWhatIsTooWide) {
 template <std::size_t Criteria>
 bool expect_same_as_general(const Labelling<Criteria>& problem, SmallPiece<Criteria>& small, Random& random) {
   Reduction fixed;
-  fixed.block.assign(problem.size(), kNone);
   std::vector<std::uint32_t> open, index(problem.size());
   for (std::uint32_t q = 0; q < problem.size(); ++q) {
     fixed.label.push_back(
