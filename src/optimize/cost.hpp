@@ -54,6 +54,12 @@ constexpr void add(Cost<Criteria>& cost, const Weight<Criteria>& weight) {
   for (std::size_t i = 0; i < Criteria; ++i) cost.level[i] += weight[i];
 }
 
+/// Without a branch.
+template <std::size_t Criteria>
+constexpr void add_if(Weight<Criteria>& sum, const Weight<Criteria>& weight, bool wanted) {
+  for (std::size_t i = 0; i < Criteria; ++i) sum[i] += weight[i] & -static_cast<std::int64_t>(wanted);
+}
+
 /// As comparing with an empty weight, but without a call of memcmp.
 template <std::size_t Criteria>
 constexpr bool is_zero(const Weight<Criteria>& weight) {

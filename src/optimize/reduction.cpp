@@ -70,24 +70,26 @@ class Reducer {
   /// term is a table, or all labels are known.
   template <class LabelOf>
   [[nodiscard]] Label verdict(std::uint32_t q, const LabelOf& label_of) const {
-    Cost<Criteria> lo = problem_.unary[q];
-    Cost<Criteria> hi = lo;
+    Weight<Criteria> lo = problem_.unary.levels()[q];
+    Weight<Criteria> hi = lo;
+    // Signs and labels are as good as random: without branches.
     for (std::size_t i = problem_.first[q]; i < problem_.first[q + 1]; ++i) {
       const Weight<Criteria>& weight = problem_.weight[i];
       const Label label = label_of(problem_.neighbour[i]);
-      if (label == Label::Zero) continue;
-      const bool negative = is_negative<Criteria>(weight);
-      if (label == Label::One || negative) add(lo, weight);
-      if (label == Label::One || !negative) add(hi, weight);
+      const bool negative = is_negative<Criteria>(weight), one = label == Label::One,
+                 open = label == Label::Open;
+      add_if<Criteria>(lo, weight, one | (open & negative));
+      add_if<Criteria>(hi, weight, one | (open & !negative));
     }
     for (const std::uint32_t i : problem_.tables.of(q)) {
       const auto [least, most] = spread<Criteria>(problem_.tables, i, q, out_.label);
-      add(lo, least);
-      add(hi, most);
+      add_if<Criteria>(lo, least, true);
+      add_if<Criteria>(hi, most, true);
     }
-    const Cost<Criteria> zero{};
-    if (!(lo < zero)) return Label::Zero;
-    if (!(zero < hi)) return Label::One;
+    // One flip and its tie decide last: they are positive, or there are none.
+    const Weight<Criteria> zero{};
+    if (lo >= zero) return Label::Zero;
+    if (hi < zero || (hi == zero && problem_.unary.ties()[q] == 0)) return Label::One;
     return Label::Open;
   }
 
