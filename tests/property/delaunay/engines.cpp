@@ -1,10 +1,12 @@
 // Our triangulation against CGAL's: the same triangles, whatever the points and constraint edges.
 #include "noded.hpp"
 
+#include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
 
 #include <support/random.hpp>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <functional>
 #include <numbers>
@@ -135,6 +137,60 @@ TEST(Engines, AgreeAcrossStrips) {
   for (int i = 0; i < 100000; ++i) distinct.insert(near_circle(random));
   circle.points.assign(distinct.begin(), distinct.end());
   expect_same(circle);
+}
+
+// Points near a lattice, and in many of its squares a diagonal.
+Scene make_diagonals(Random& random, int columns, int rows) {
+  Scene scene;
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) {
+      scene.points.push_back({x + random.real(-0.2, 0.2), y + random.real(-0.2, 0.2)});
+    }
+  }
+  const auto at = [columns](int x, int y) { return VertexId{static_cast<std::size_t>(y * columns + x)}; };
+  for (int y = 0; y + 1 < rows; ++y) {
+    for (int x = 0; x + 1 < columns; ++x) {
+      if (random.integer(0, 2) > 0) continue;
+      const bool rises = random.integer(0, 1) == 1;
+      scene.constraints.push_back(
+          {at(x, rises ? y : y + 1), at(x + 1, rises ? y + 1 : y), EdgeKind::Breakline});
+    }
+  }
+  return scene;
+}
+
+// Enough edges for several threads; some lead from one thread's vertices to another's, one past all of them.
+TEST(Engines, AgreeWhereThreadsShareTheEdges) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  Scene scene = make_diagonals(random, 500, 300);
+  scene.points.push_back({-300, 320});
+  scene.points.push_back({800, 320});
+  scene.constraints.push_back(
+      {VertexId{scene.points.size() - 2}, VertexId{scene.points.size() - 1}, EdgeKind::Breakline});
+  tbb::task_arena(4).execute([&] { expect_same(scene); });
+}
+
+TEST(Engines, NameTheSameCrossingWhateverTheThreads) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  Scene scene = make_diagonals(random, 500, 300);
+  for (std::size_t i = 0; i < 20; ++i) {  // the other diagonals of some squares
+    const ConstraintEdge edge = scene.constraints[i * scene.constraints.size() / 20];
+    scene.constraints.push_back({VertexId{edge.a.value() + 1}, VertexId{edge.b.value() - 1}});
+  }
+  const auto message = [&] {
+    try {
+      Progress progress;
+      triangulate(scene.points, std::vector<double>(scene.points.size(), 0.0), scene.constraints, progress);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string by_one = tbb::task_arena(1).execute(message);
+  EXPECT_NE(by_one, "");
+  EXPECT_EQ(tbb::task_arena(4).execute(message), by_one);
 }
 
 // A fan of edges that hang into the cavity of one long edge.

@@ -7,9 +7,11 @@
 #include "support/random_labelling.hpp"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 namespace thalweg::test {
@@ -146,6 +148,76 @@ TEST(SmallPiece, IsSolvedAsAnyOther) {
     solved += expect_same_as_general(random_labelling<2>(shape, random), two, random) ? 1 : 0;
   }
   EXPECT_GT(solved, 400U);
+}
+
+/// Problems that have nothing to do with each other, and one that is all of them.
+struct ManyProblems {
+  std::vector<Labelling<1>> problem;
+  std::vector<std::vector<std::uint32_t>> variables;  ///< their numbers in the whole
+
+  [[nodiscard]] Labelling<1> whole(std::size_t count) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> from(count);  // problem and variable
+    for (std::uint32_t p = 0; p < problem.size(); ++p) {
+      for (std::uint32_t q = 0; q < variables[p].size(); ++q) from[variables[p][q]] = {p, q};
+    }
+    std::vector<std::uint32_t> first_node;
+    Labelling<1> all;
+    for (const Labelling<1>& part : problem) {
+      first_node.push_back(all.node_count);
+      all.node_count += part.node_count;
+    }
+    for (const auto& [p, q] : from) {
+      const Labelling<1>& part = problem[p];
+      all.unary.push_back(part.unary[q]);
+      for (std::size_t i = part.first[q]; i < part.first[q + 1]; ++i) {
+        all.neighbour.push_back(variables[p][part.neighbour[i]]);
+        all.weight.push_back(part.weight[i]);
+      }
+      all.first.push_back(static_cast<std::uint32_t>(all.neighbour.size()));
+      const Link link = part.has_link(q) ? part.link[q] : Link{};
+      all.link.push_back(
+          link.exists() ? Link{first_node[p] + link.a, first_node[p] + link.b, link.helpful()} : Link{});
+    }
+    all.tables.index(count);
+    return all;
+  }
+};
+
+// Parts of one problem lie in one block of variables, or across the borders of blocks.
+TEST(Solver, SolvesManyProblemsAsEachByItself) {
+  Random random;
+  SCOPED_TRACE(random.trace());
+  constexpr std::uint32_t kCount = 150'000;
+  for (const std::uint32_t apart : {8U, 40'000U, kCount}) {
+    std::vector<std::uint32_t> numbers(kCount);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    for (std::uint32_t begin = 0; begin < kCount; begin += apart) {
+      std::shuffle(numbers.begin() + begin, numbers.begin() + std::min(kCount, begin + apart),
+                   random.engine());
+    }
+    ManyProblems many;
+    Cost<1> least;
+    for (std::uint32_t begin = 0; begin < kCount;) {
+      const LabellingShape shape{
+          .variables = std::min<std::size_t>(random.integer<std::size_t>(1, 8), kCount - begin),
+          .pairs_per_variable = random.real(0, 2),
+          .nodes = random.integer<std::size_t>(0, 4),
+          .range = random.integer(1, 8)};
+      many.problem.push_back(random_labelling<1>(shape, random));
+      least += plain_minimum(many.problem.back());
+      many.variables.emplace_back(numbers.begin() + begin, numbers.begin() + begin + shape.variables);
+      begin += static_cast<std::uint32_t>(shape.variables);
+    }
+    const Labelling<1> problem = many.whole(kCount);
+    const Progress progress;
+    const Solution<1> solution = solve<1>(problem, {}, progress);
+    EXPECT_EQ(solution.value, least);
+    EXPECT_EQ(solution.bound, least);
+    const Solution<1> by_one = tbb::task_arena(1).execute([&] { return solve<1>(problem, {}, progress); });
+    EXPECT_EQ(by_one.label, solution.label);
+    EXPECT_EQ(by_one.figures.pieces, solution.figures.pieces);
+    EXPECT_EQ(by_one.figures.fixed_by_elimination, solution.figures.fixed_by_elimination);
+  }
 }
 
 TEST(Solver, TiesThroughoutKeepLabelsZero) {

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <functional>
@@ -141,6 +142,43 @@ TEST(Ground, DuplicateRules) {
   EXPECT_EQ(ground.conflicts[0].source_a, "points.csv row 1");
   EXPECT_EQ(ground.conflicts[0].source_b, "points.csv row 5");
   EXPECT_EQ(ground.conflicts[0].z_used, 3);
+}
+
+// Many blocks of vertices, with conflicts of points and of lines in each.
+TEST(Ground, ConflictsAreInOrderOnAnyNumberOfThreads) {
+  std::vector<Point3> points;
+  for (int y = 0; y < 200; ++y) {
+    for (int x = 0; x < 300; ++x) points.push_back({1.0 * x, 1.0 * y, 0});
+  }
+  for (std::size_t i = 0; i < points.size(); i += 700) points.push_back({points[i].x, points[i].y, 1});
+  Survey survey = make_survey(points);
+  for (int y = 1; y < 200; y += 10) add_hard(survey, {{0, 1.0 * y, 2}, {299, 1.0 * y, 2}});
+  add_hard(survey, {{5, 0, 3}, {5, 199, 3}});
+  GroundOptions options;
+  const auto conflicts = [&] { return build(survey, options).conflicts; };
+  const std::vector<Conflict> by_one = tbb::task_arena(1).execute(conflicts);
+  const std::vector<Conflict> by_four = tbb::task_arena(4).execute(conflicts);
+  ASSERT_GT(by_one.size(), 6000U);
+  ASSERT_EQ(by_one.size(), by_four.size());
+  for (std::size_t i = 0; i < by_one.size(); ++i) {
+    EXPECT_EQ(by_one[i].xy, by_four[i].xy);
+    EXPECT_EQ(by_one[i].source_b, by_four[i].source_b);
+    if (i == 0) continue;
+    EXPECT_LE(std::pair(by_one[i - 1].xy.y, by_one[i - 1].xy.x),
+              std::pair(by_one[i].xy.y, by_one[i].xy.x));
+  }
+  options.crossing = CrossingRule::Error;
+  const auto message = [&] {
+    try {
+      build(survey, options);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string first = tbb::task_arena(1).execute(message);
+  EXPECT_THAT(first, HasSubstr("feature 12"));
+  EXPECT_EQ(tbb::task_arena(4).execute(message), first);
 }
 
 TEST(Ground, EqualDuplicatesAreNoConflict) {
