@@ -11,7 +11,7 @@
 //    sides between safe and unsafe cells are sides there as well. So: triangulate S, and from the far side of
 //    each such side on flood the cells of S, across all sides but these: they are what is missing.
 // 4. Unsafe cells lie along the seams: about the square root of all, for points spread evenly. If there are
-//    many, as on one common circle, all vertices are triangulated again, in one strip.
+//    many, as on one common circle, all vertices are triangulated in one strip; a sample tells so before.
 #include "flat_delaunay.hpp"
 
 #include "incremental.hpp"
@@ -51,7 +51,9 @@ class Strips {
 
   /// False if some strip has no triangle.
   bool triangulate(std::size_t strips);
-  /// False if too much is unsafe.
+  /// Whether few cells are unsafe. Pre: triangulated.
+  bool are_apart() { return are_few(mark_unsafe()); }
+  /// False if many are.
   bool join();
   [[nodiscard]] RawVector<Cell> take_cells() { return std::move(cells_); }
 
@@ -59,6 +61,9 @@ class Strips {
   void cut(std::size_t strips);
   [[nodiscard]] bool safe(const Cell& cell, std::size_t strip) const;
   std::vector<std::uint32_t> mark_unsafe();
+  [[nodiscard]] bool are_few(std::span<const std::uint32_t> unsafe) const {
+    return unsafe.size() <= count_ / 2;
+  }
   void fill_seams(const RawVector<Cell>& seam, std::span<const std::uint32_t> vertices,
                   std::span<const std::uint32_t> unsafe);
 
@@ -152,7 +157,7 @@ std::vector<std::uint32_t> Strips::mark_unsafe() {
 
 bool Strips::join() {
   const std::vector<std::uint32_t> unsafe = mark_unsafe();
-  if (unsafe.size() > count_ / 2) return false;
+  if (!are_few(unsafe)) return false;
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t c : unsafe) {
     for (const std::uint32_t v : cells_[c].vertex) {
@@ -233,13 +238,24 @@ void Strips::fill_seams(const RawVector<Cell>& seam, std::span<const std::uint32
   }
 }
 
+// Whether strips of some of the vertices can be joined; then those of all can, as a rule.
+bool sample_is_apart(const Positions& at, std::size_t strips, const Progress& progress) {
+  constexpr std::uint32_t kSample = 1 << 12;
+  std::vector<Point2> sample;
+  const std::uint32_t step = std::max(1U, at.infinity() / kSample);
+  for (std::uint32_t v = 0; v < at.infinity(); v += step) sample.push_back(at[v]);
+  sample.push_back(at[at.infinity()]);
+  Strips trial({sample}, progress);
+  return trial.triangulate(strips) && trial.are_apart();
+}
+
 }  // namespace
 
 RawVector<Cell> delaunay_cells(const Positions& at, const Progress& progress) {
   const std::uint32_t count = at.infinity();
   const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const std::size_t strips = std::min<std::size_t>(threads, count / kLeastStrip);
-  if (strips > 1) {
+  if (strips > 1 && sample_is_apart(at, strips, progress)) {
     Strips parallel(at, progress);
     if (parallel.triangulate(strips) && parallel.join()) return parallel.take_cells();
   }

@@ -188,6 +188,17 @@ std::vector<VertexId> numbers_in_order(std::span<const std::uint32_t> now_of) {
   return number;
 }
 
+// For each point its vertex now; invalid if that was dropped.
+std::vector<VertexId> vertices_of_points(std::span<const std::uint32_t> of_point,
+                                         std::span<const std::uint32_t> now_of) {
+  std::vector<VertexId> vertices;
+  vertices.reserve(of_point.size());
+  for (const std::uint32_t v : of_point) {
+    vertices.push_back(now_of[v] == VertexId::kInvalid ? VertexId{} : VertexId{now_of[v]});
+  }
+  return vertices;
+}
+
 [[noreturn]] void refuse_empty_region() {
   throw Error(ErrorCode::EmptyInput, "no ground lies inside of the boundary and outside of the holes");
 }
@@ -318,11 +329,7 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   }
   ground.origins = std::move(plan.origins);
   if (along_curve) ground.number = numbers_in_order(plan.now_of);
-  ground.point_vertices.reserve(drawing.vertices.of_point.size());
-  for (const std::uint32_t v : drawing.vertices.of_point) {
-    const std::uint32_t now = plan.now_of[v];
-    ground.point_vertices.push_back(now == VertexId::kInvalid ? VertexId{} : VertexId{now});
-  }
+  ground.point_vertices = vertices_of_points(drawing.vertices.of_point, plan.now_of);
   for (std::size_t v = 0; v < drawing.vertices.point_count; ++v) {
     ground.outside_boundary += plan.now_of[v] == VertexId::kInvalid ? 1 : 0;
   }

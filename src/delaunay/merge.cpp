@@ -304,23 +304,9 @@ std::vector<Point2> all_positions(const Survey& survey, std::size_t count) {
   return all;
 }
 
-}  // namespace
-
-MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options, Progress& progress) {
-  progress.start_phase("merging points");
-  check_coordinates(survey, progress);
-  MergedVertices merged;
-  const std::size_t point_count = survey.points.xy.size();
-  merged.first_of_line = first_vertices(survey.lines);
-  std::vector<Point2> with_lines;
-  if (!survey.lines.empty()) with_lines = all_positions(survey, point_count + merged.first_of_line.back());
-  const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;
-  merged.pixel = snapping_pixel(all, options.resolution);
-  CurveOrder order = order_along_curve(all, progress);
-  LargeVector<std::uint32_t> name = find_representatives(
-      all, point_count, order.crowded, options.snap, std::max(options.snap, merged.pixel / 4), progress);
-  progress.advance(0.5);
-
+// Numbers the groups of `all` in the order of their names. `merged` knows where lines start.
+void number_groups(std::span<const Point2> all, std::size_t point_count, LargeVector<std::uint32_t>& name,
+                   MergedVertices& merged, const Progress& progress) {
   const auto origin_of = [&](std::size_t i) {
     if (i < point_count) return VertexOrigin{VertexOrigin::Kind::Point, static_cast<std::uint32_t>(i), 0};
     const auto& first = merged.first_of_line;
@@ -334,38 +320,55 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   merged.xy.resize(before.back());
   reserve_large(merged.origins, before.back());
   merged.origins.resize(before.back());
-  merged.of_point.resize(point_count);
-  merged.of_line_vertex.resize(all.size() - point_count);
-  const auto number = [&](std::size_t i) -> std::uint32_t& {
-    return i < point_count ? merged.of_point[i] : merged.of_line_vertex[i - point_count];
-  };
   for_each_block(all.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     std::size_t next = before[begin / kBlock];
     for (std::size_t i = begin; i < end; ++i) {
       if (name[i] != i) continue;
       merged.xy[next] = all[i];
       merged.origins[next] = origin_of(i);
-      number(i) = static_cast<std::uint32_t>(next++);
+      merged.number(i) = static_cast<std::uint32_t>(next++);
     }
   });
   for_each_block(all.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (name[i] != i) number(i) = number(name[i]);
+      if (name[i] != i) merged.number(i) = merged.number(name[i]);
     }
   });
   for (const auto& [first, representative] : renamed) {
-    merged.xy[number(first)] = all[representative];
-    merged.origins[number(first)] = origin_of(representative);
+    merged.xy[merged.number(first)] = all[representative];
+    merged.origins[merged.number(first)] = origin_of(representative);
   }
-  if (merged.xy.size() < all.size()) {
-    std::erase_if(order.indices, [&](std::uint32_t i) { return name[i] != i; });
-    for (std::uint32_t& i : order.indices) i = number(i);
-  }
-  merged.along_curve = std::move(order.indices);
   merged.point_count = before[point_count / kBlock];
   for (std::size_t i = point_count / kBlock * kBlock; i < point_count; ++i) {
     merged.point_count += name[i] == i ? 1 : 0;
   }
+}
+
+}  // namespace
+
+MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options, Progress& progress) {
+  progress.start_phase("merging points");
+  check_coordinates(survey, progress);
+  MergedVertices merged;
+  const std::size_t point_count = survey.points.xy.size();
+  merged.first_of_line = first_vertices(survey.lines);
+  std::vector<Point2> with_lines;
+  if (!survey.lines.empty()) with_lines = all_positions(survey, point_count + merged.first_of_line.back());
+  const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;
+  merged.pixel = snapping_pixel(all, options.resolution);
+  merged.of_point.resize(point_count);
+  merged.of_line_vertex.resize(all.size() - point_count);
+  CurveOrder order = order_along_curve(all, progress);
+  LargeVector<std::uint32_t> name = find_representatives(
+      all, point_count, order.crowded, options.snap, std::max(options.snap, merged.pixel / 4), progress);
+  progress.advance(0.5);
+
+  number_groups(all, point_count, name, merged, progress);
+  if (merged.xy.size() < all.size()) {
+    std::erase_if(order.indices, [&](std::uint32_t i) { return name[i] != i; });
+    for (std::uint32_t& i : order.indices) i = merged.number(i);
+  }
+  merged.along_curve = std::move(order.indices);
   progress.advance(1);
   return merged;
 }

@@ -20,6 +20,10 @@ struct MergedVertices {
   std::vector<std::uint32_t> of_line_vertex;
   std::vector<std::uint32_t> along_curve;  ///< the vertices along a Hilbert curve; empty: that is not known
 
+  /// The vertex of a position: of a point, or after all points of a line vertex.
+  [[nodiscard]] std::uint32_t& number(std::size_t position) {
+    return position < of_point.size() ? of_point[position] : of_line_vertex[position - of_point.size()];
+  }
   [[nodiscard]] std::uint32_t of_line(std::size_t line, std::size_t vertex) const {
     return of_line_vertex[first_of_line[line] + vertex];
   }
