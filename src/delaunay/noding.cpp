@@ -39,14 +39,13 @@
 // pixel.
 #include "noding.hpp"
 
-#include "base/release.hpp"
+#include "base/ordered_blocks.hpp"
 #include "box_tree.hpp"
 #include "spatial_order.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
-#include <base/parallel.hpp>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -83,17 +82,6 @@ using LinkPair = std::array<std::uint32_t, 2>;
 /// Holds the cell.
 Box2 box_of(const Cell& cell) {
   return box_around(cell.centre, std::max(cell.half_x, cell.half_y));
-}
-
-// Blocks' findings, in the order of blocks.
-template <class Found>
-std::vector<Found> gather(std::vector<std::vector<Found>>& parts) {
-  std::vector<Found> all;
-  for (auto& part : parts) {
-    all.insert(all.end(), part.begin(), part.end());
-    release(part);
-  }
-  return all;
 }
 
 // Counts what all threads find together, and gives up where it is too much.
@@ -199,26 +187,25 @@ class Noder {
   }
 
   [[nodiscard]] std::vector<LinkPair> find_crossings(const BoxTree& tree) const {
-    std::vector<std::vector<LinkPair>> found((tree.size() + kBlock - 1) / kBlock);
     Tally tally(kMostCrossings, "cross each other");
-    for_each_block(tree.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    const auto list = [&](std::size_t begin, std::size_t end, std::vector<LinkPair>& found) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t one = tree.item(i);
         if (!new_[one]) continue;
-        const std::size_t before = found[begin / kBlock].size();
+        const std::size_t before = found.size();
         tree.visit(tree.box(i), [&](std::uint32_t other) {
           if (other == one || (new_[other] && other < one)) return;
           if (is_end(one, ends_[other][0]) || is_end(one, ends_[other][1])) return;
           const auto& [a, b] = links_[one];
           const auto& [c, d] = links_[other];
           if (cross_properly(a, b, c, d)) {
-            found[begin / kBlock].push_back({std::min(one, other), std::max(one, other)});
+            found.push_back({std::min(one, other), std::max(one, other)});
           }
         });
-        tally.add(found[begin / kBlock].size() - before);
+        tally.add(found.size() - before);
       }
-    });
-    std::vector<LinkPair> crossings = gather(found);
+    };
+    auto crossings = list_in_order<LinkPair>(tree.size(), kBlock, progress_, list);
     std::sort(crossings.begin(), crossings.end());
     crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
     return crossings;
@@ -228,16 +215,12 @@ class Noder {
   // is at hand for the next.
   [[nodiscard]] std::vector<std::uint32_t> find_near(const BoxTree& tree, std::size_t first,
                                                      double grid) const {
-    const std::size_t count = xy_.size() - first;
-    std::vector<std::vector<std::uint32_t>> found((count + kBlock - 1) / kBlock);
-    for_each_block(count, kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    const auto list = [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
       for (std::size_t v = first + begin; v < first + end; ++v) {
-        if (tree.may_meet(box_of({xy_[v], grid}))) {
-          found[begin / kBlock].push_back(static_cast<std::uint32_t>(v));
-        }
+        if (tree.may_meet(box_of({xy_[v], grid}))) found.push_back(static_cast<std::uint32_t>(v));
       }
-    });
-    const std::vector<std::uint32_t> near = gather(found);
+    };
+    const auto near = list_in_order<std::uint32_t>(xy_.size() - first, kBlock, progress_, list);
     std::vector<Point2> positions(near.size());
     for (std::size_t i = 0; i < near.size(); ++i) positions[i] = xy_[near[i]];
     std::vector<std::uint32_t> along = coarse_hilbert_order(positions, progress_);
@@ -250,11 +233,10 @@ class Noder {
   [[nodiscard]] std::vector<Stop> find_stops(const BoxTree& tree, std::span<const std::uint32_t> links,
                                              std::size_t first, double grid) const {
     const std::vector<std::uint32_t> near = find_near(tree, first, grid);
-    std::vector<std::vector<Stop>> found((near.size() + kBlock - 1) / kBlock);
     Tally tally(kMostStops, "run along each other or through vertices");
-    for_each_block(near.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    const auto list = [&](std::size_t begin, std::size_t end, std::vector<Stop>& found) {
       for (std::size_t i = begin; i < end; ++i) {
-        const std::size_t before = found[begin / kBlock].size();
+        const std::size_t before = found.size();
         const std::uint32_t vertex = near[i];
         const Cell cell(xy_[vertex], grid);
         tree.visit(box_of(cell), [&](std::uint32_t item) {
@@ -262,13 +244,13 @@ class Noder {
           if (is_end(link, vertex)) return;
           const bool on_link = on_segment(links_[link].a, links_[link].b, cell.centre);
           if (on_link || meets_cell(links_[link], cell)) {
-            found[begin / kBlock].push_back({link, vertex, on_link});
+            found.push_back({link, vertex, on_link});
           }
         });
-        tally.add(found[begin / kBlock].size() - before);
+        tally.add(found.size() - before);
       }
-    });
-    std::vector<Stop> stops = gather(found);
+    };
+    auto stops = list_in_order<Stop>(near.size(), kBlock, progress_, list);
     sort_stops(stops);
     return stops;
   }
@@ -301,16 +283,14 @@ class Noder {
   // Step 2. Only cells that a link meets can hold its crossings.
   void add_crossing_vertices(const BoxTree& tree, std::span<const LinkPair> crossings,
                              std::vector<Stop>& stops, double grid) {
-    std::vector<std::vector<Point2>> found((crossings.size() + kBlock - 1) / kBlock);
-    for_each_block(crossings.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    const auto list = [&](std::size_t begin, std::size_t end, std::vector<Point2>& found) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (!crosses_at_vertex(crossings[i], stops, grid)) {
-          const auto [one, other] = crossings[i];
-          found[begin / kBlock].push_back(round_crossing(links_[one], links_[other], grid));
-        }
+        if (crosses_at_vertex(crossings[i], stops, grid)) continue;
+        const auto [one, other] = crossings[i];
+        found.push_back(round_crossing(links_[one], links_[other], grid));
       }
-    });
-    std::vector<Point2> nodes = gather(found);
+    };
+    auto nodes = list_in_order<Point2>(crossings.size(), kBlock, progress_, list);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     const std::size_t first_new = xy_.size();
