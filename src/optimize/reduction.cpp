@@ -136,6 +136,7 @@ class Reducer {
       for_each_neighbour(q, wake);
     };
     while (next < ours.end) {
+      if (next % kSteps == 0) progress_.check();
       const std::uint32_t q = next++;
       if (problem_.has_link(q)) rest.linked.push_back(q);
       look_at(q);

@@ -1,8 +1,9 @@
 // Refuses, before the work starts, what the memory cannot hold.
 //
-// The figures are measured: peak memory of whole runs of 10^2 to 4 x 10^6 points to PLY is 53 MiB and up to
-// 252 bytes a random point, 271 a lattice point at order 1 and below; at order 2 it is 1 400 bytes a random
-// point. Longitudes and latitudes take 383, a simplification that keeps most points 396.
+// The figures are measured: peak memory of whole runs of 10^4 to 4 x 10^6 points to PLY is 53 MiB and up to
+// 203 bytes a random point, 210 a lattice point at order 1 and below; at orders 2 and 3 it is 1 051 and 1 220
+// bytes a random point. Longitudes and latitudes take up to 314, a simplification that keeps most points 392,
+// both 535.
 #include "pipeline/memory_estimate.hpp"
 
 #include "base/memory.hpp"
@@ -16,10 +17,10 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kBytesOfProgram = std::size_t{53} << 20U;
-constexpr std::size_t kBytesAVertex = 280;
+constexpr std::size_t kBytesAVertex = 220;
 constexpr std::size_t kBytesAVertexAboveOrder1 = 1500;
-constexpr std::size_t kBytesToProject = 110;
-constexpr std::size_t kBytesToSimplify = 120;
+constexpr std::size_t kBytesToProject = 125;
+constexpr std::size_t kBytesToSimplify = 200;
 
 std::string in_mebibytes(std::size_t bytes) {
   return fmt::format("{} MiB", (bytes + 0xfffff) >> 20U);
