@@ -2,6 +2,7 @@
 
 /// Memory for arrays that are visited at random: on large pages, where the system has them.
 
+#include <thalweg/base/assert.hpp>
 #include <thalweg/base/raw_vector.hpp>
 
 #include <cstddef>
@@ -37,10 +38,11 @@ void advise_large_pages(void* memory, std::size_t bytes) noexcept;
 /// it is given away, which takes most of the time that one thread needs to fill an array.
 void touch_pages(void* memory, std::size_t bytes);
 
-/// Reserves memory on large pages for an array that has none: where it has to be a common vector, and will be
+/// Reserves memory on large pages for an array that is empty: where it has to be a common vector, and will be
 /// filled at once.
 template <class T>
 void reserve_large(std::vector<T>& array, std::size_t count) {
+  THALWEG_ASSERT(array.empty());
   array.reserve(count);
   advise_large_pages(array.data(), count * sizeof(T));
   touch_pages(array.data(), count * sizeof(T));
