@@ -101,6 +101,25 @@ BoxTree::BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> ite
   }
 }
 
+void BoxTree::note_ends(std::span<const Ends> of_item) {
+  shared_.clear();
+  std::vector<Ends>& leaves = shared_.emplace_back();
+  leaves.reserve(items_.size());
+  for (const std::uint32_t item : items_) leaves.push_back(of_item[item]);
+  while (shared_.size() < levels_.size()) {
+    const std::vector<Ends>& below = shared_.back();
+    std::vector<Ends> level(levels_[shared_.size()].size());
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      Ends& shared = level[i / kChildren];
+      if (i % kChildren == 0) shared = below[i];
+      for (std::uint32_t& end : shared) {
+        if (end != below[i][0] && end != below[i][1]) end = kNone;
+      }
+    }
+    shared_.push_back(std::move(level));
+  }
+}
+
 BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress) {
   double total = 0;
   double largest = 0;

@@ -8,6 +8,7 @@
 #include <thalweg/geometry/point.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -57,9 +58,11 @@ class TouchedSquares {
 };
 
 /// Packed R-tree over boxes along a Hilbert curve; nodes have eight children. Memory: 41 bytes a box, 8 more
-/// over segments.
+/// over segments, 9 more where their ends are noted.
 class BoxTree {
  public:
+  using Ends = std::array<std::uint32_t, 2>;
+
   BoxTree() = default;
   /// `items[i]` is what a visitor of `boxes[i]` is given; several boxes may have the same item.
   BoxTree(std::span<const Box2> boxes, std::span<const std::uint32_t> items, const Progress& progress);
@@ -77,31 +80,51 @@ class BoxTree {
   /// may leave out those that do not meet the query themselves.
   template <class Visitor>
   void visit(const Box2& query, const Visitor& visitor) const {
-    if (!may_meet(query)) return;
-    visit_range(levels_.size() - 1, 0, levels_.back().size(), query, visitor);
+    visit_unless([](std::size_t, std::size_t) { return false; }, query, visitor);
+  }
+
+  /// Notes the two ends of each item.
+  void note_ends(std::span<const Ends> of_item);
+  /// The same, but may leave out items that share an end with `ends`: where very many do, as in a fan, it asks
+  /// few of them. Pre: ends are noted.
+  template <class Visitor>
+  void visit_apart(const Ends& ends, const Box2& query, const Visitor& visitor) const {
+    const auto all_share = [&](std::size_t level, std::size_t i) {
+      const auto [a, b] = shared_[level][i];
+      return (a != kNone && (a == ends[0] || a == ends[1])) || (b != kNone && (b == ends[0] || b == ends[1]));
+    };
+    visit_unless(all_share, query, visitor);
   }
 
  private:
   friend BoxTree segment_tree(std::span<const Segment> segments, const Progress& progress);
   static constexpr std::size_t kChildren = 8;
+  static constexpr std::uint32_t kNone = 0xffffffffU;
 
-  template <class Visitor>
-  void visit_range(std::size_t level, std::size_t begin, std::size_t end, const Box2& query,
-                   const Visitor& visitor) const {
+  template <class Leave, class Visitor>
+  void visit_unless(const Leave& leave, const Box2& query, const Visitor& visitor) const {
+    if (!may_meet(query)) return;
+    visit_range(levels_.size() - 1, 0, levels_.back().size(), leave, query, visitor);
+  }
+  template <class Leave, class Visitor>
+  void visit_range(std::size_t level, std::size_t begin, std::size_t end, const Leave& leave,
+                   const Box2& query, const Visitor& visitor) const {
     const std::vector<Box2>& boxes = levels_[level];
     for (std::size_t i = begin; i < end; ++i) {
-      if (!meet(boxes[i], query)) continue;
+      if (!meet(boxes[i], query) || leave(level, i)) continue;
       if (level == 0) {
         visitor(items_[i]);
       } else {
         const std::size_t first = i * kChildren;
-        visit_range(level - 1, first, std::min(first + kChildren, levels_[level - 1].size()), query, visitor);
+        visit_range(level - 1, first, std::min(first + kChildren, levels_[level - 1].size()), leave, query,
+                    visitor);
       }
     }
   }
 
   std::vector<std::vector<Box2>> levels_;  // from the leaves up
   std::vector<std::uint32_t> items_;
+  std::vector<std::vector<Ends>> shared_;  // as levels: the ends that all items below have, or kNone
   TouchedSquares squares_;  ///< over segments: between them lies much where no box is
 };
 

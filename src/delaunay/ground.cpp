@@ -276,6 +276,22 @@ void level(const Survey& survey, const Drawing& drawing, std::span<const std::ui
   ground.tin = ground.tin.with_heights(std::move(levelled.z));
 }
 
+// What has become of points, conflicts and crossings.
+void tell_fates(const Drawing& drawing, std::span<const std::uint32_t> now_of, Heights& heights,
+                Ground& ground) {
+  ground.point_vertices = vertices_of_points(drawing.vertices.of_point, now_of);
+  for (std::size_t v = 0; v < drawing.vertices.point_count; ++v) {
+    ground.outside_boundary += now_of[v] == VertexId::kInvalid ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < heights.conflicts.size(); ++i) {
+    if (now_of[heights.conflict_vertices[i]] == VertexId::kInvalid) continue;
+    ground.conflicts.push_back(std::move(heights.conflicts[i]));
+  }
+  for (const VertexOrigin& origin : ground.origins) {
+    ground.crossings += origin.kind == VertexOrigin::Kind::Crossing ? 1 : 0;
+  }
+}
+
 /// `points_are_placed` is called when the survey's points are needed no more.
 template <class Release>
 Ground build(const Survey& survey, const GroundOptions& options, const Release& points_are_placed,
@@ -329,17 +345,7 @@ Ground build(const Survey& survey, const GroundOptions& options, const Release& 
   }
   ground.origins = std::move(plan.origins);
   if (along_curve) ground.number = numbers_in_order(plan.now_of);
-  ground.point_vertices = vertices_of_points(drawing.vertices.of_point, plan.now_of);
-  for (std::size_t v = 0; v < drawing.vertices.point_count; ++v) {
-    ground.outside_boundary += plan.now_of[v] == VertexId::kInvalid ? 1 : 0;
-  }
-  for (std::size_t i = 0; i < heights.conflicts.size(); ++i) {
-    if (plan.now_of[heights.conflict_vertices[i]] == VertexId::kInvalid) continue;
-    ground.conflicts.push_back(std::move(heights.conflicts[i]));
-  }
-  for (const VertexOrigin& origin : ground.origins) {
-    ground.crossings += origin.kind == VertexOrigin::Kind::Crossing ? 1 : 0;
-  }
+  tell_fates(drawing, plan.now_of, heights, ground);
   return ground;
 }
 

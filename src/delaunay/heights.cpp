@@ -272,9 +272,10 @@ class Resolver {
       const SurveyLine& line = survey_.lines[passage.line];
       if (line.z.empty() || has(line.kind, EdgeKind::Lake)) continue;
       const Claim claim = claim_of(v, passage, line);
-      const bool said = std::any_of(claims.begin(), claims.end(), [&](const Claim& other) {
-        return other.passage.line == passage.line && other.z == claim.z;
-      });
+      bool said = false;
+      for (auto last = claims.rbegin(); last != claims.rend() && last->passage.line == passage.line; ++last) {
+        said = said || last->z == claim.z;
+      }
       if (!said) claims.push_back(claim);
     }
     const auto given = std::find_if(claims.begin(), claims.end(), [](const Claim& c) { return c.given(); });

@@ -125,7 +125,8 @@ class Noder {
       // The check after the last round is exact; the width plays no part in it.
       const double grid = std::ldexp(pixel_, -1 - std::min(round, kRounds - 1));
       collect_links();
-      const BoxTree tree = segment_tree(links_, progress_);
+      BoxTree tree = segment_tree(links_, progress_);
+      tree.note_ends(ends_);
       const std::vector<LinkPair> crossings = find_crossings(tree);
       std::vector<Stop> stops = round == 0 ? find_stops(tree, {}, 0, grid) : find_stops_of_new(grid);
       const auto contact = std::find_if(stops.begin(), stops.end(), [](const Stop& s) { return s.on_link; });
@@ -193,7 +194,7 @@ class Noder {
         const std::uint32_t one = tree.item(i);
         if (!new_[one]) continue;
         const std::size_t before = found.size();
-        tree.visit(tree.box(i), [&](std::uint32_t other) {
+        tree.visit_apart(ends_[one], tree.box(i), [&](std::uint32_t other) {
           if (other == one || (new_[other] && other < one)) return;
           if (is_end(one, ends_[other][0]) || is_end(one, ends_[other][1])) return;
           const auto& [a, b] = links_[one];

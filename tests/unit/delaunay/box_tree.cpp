@@ -46,5 +46,36 @@ TEST(SegmentTree, VisitsEverySegmentThatHasAPointInTheQuery) {
   }
 }
 
+TEST(SegmentTree, LeavesOutOnlyWhatSharesAnEnd) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  for (int scene = 0; scene < 500; ++scene) {
+    const std::vector<Segment> segments = random_segments(random, 1);
+    const auto last_vertex = random.integer<std::uint32_t>(1, 20);
+    std::vector<BoxTree::Ends> ends;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const bool in_fan = random.integer(0, 3) > 0;
+      ends.push_back({in_fan ? 0 : random.integer(0U, last_vertex), random.integer(0U, last_vertex)});
+    }
+    BoxTree tree = segment_tree(segments, Progress());
+    tree.note_ends(ends);
+    for (int query = 0; query < 40; ++query) {
+      const Box2 box = box_around(segments[random.integer<std::size_t>(0, segments.size() - 1)].a, 3);
+      const BoxTree::Ends own{random.integer(0U, last_vertex), random.integer(0U, last_vertex)};
+      std::set<std::uint32_t> all, apart;
+      tree.visit(box, [&](std::uint32_t segment) { all.insert(segment); });
+      tree.visit_apart(own, box, [&](std::uint32_t segment) {
+        EXPECT_TRUE(all.contains(segment));
+        apart.insert(segment);
+      });
+      for (const std::uint32_t segment : all) {
+        const auto [a, b] = ends[segment];
+        const bool shares = a == own[0] || a == own[1] || b == own[0] || b == own[1];
+        ASSERT_TRUE(shares || apart.contains(segment));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace thalweg
