@@ -85,8 +85,8 @@ class BoxTree {
 
   /// Notes the two ends of each item.
   void note_ends(std::span<const Ends> of_item);
-  /// The same, but may leave out items that share an end with `ends`: where very many do, as in a fan, it asks
-  /// few of them. Pre: ends are noted.
+  /// The same, but may leave out items that share an end with `ends`: where very many do, as in a fan, it
+  /// asks few of them. Pre: ends are noted.
   template <class Visitor>
   void visit_apart(const Ends& ends, const Box2& query, const Visitor& visitor) const {
     const auto all_share = [&](std::size_t level, std::size_t i) {
@@ -125,7 +125,7 @@ class BoxTree {
   std::vector<std::vector<Box2>> levels_;  // from the leaves up
   std::vector<std::uint32_t> items_;
   std::vector<std::vector<Ends>> shared_;  // as levels: the ends that all items below have, or kNone
-  TouchedSquares squares_;  ///< over segments: between them lies much where no box is
+  TouchedSquares squares_;                 ///< over segments: between them lies much where no box is
 };
 
 /// The tree of segments, by index; a long one is covered by several boxes, so a visitor may meet an item more

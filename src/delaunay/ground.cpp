@@ -127,7 +127,7 @@ struct Plan {
   std::vector<double> z;
   std::vector<VertexOrigin> origins;
   std::vector<std::uint32_t> along_curve;  // the vertices along a curve; empty: that is not known
-  std::vector<std::uint32_t> now_of;  // for each vertex of the drawing its number; kInvalid: dropped
+  std::vector<std::uint32_t> now_of;       // for each vertex of the drawing its number; kInvalid: dropped
 };
 
 // Drops all vertices that are not kept, and numbers the others in their order.

@@ -209,8 +209,8 @@ class Resolver {
     set(v, choose(options_.duplicates, all));
     for (const std::uint32_t p : later) {
       if (survey_.points.z[p] == z) continue;
-      report(found, Conflict::Kind::DuplicatePoint, v, z, survey_.points.z[p],
-             describe_point(survey_, first), describe_point(survey_, p));
+      report(found, Conflict::Kind::DuplicatePoint, v, z, survey_.points.z[p], describe_point(survey_, first),
+             describe_point(survey_, p));
     }
   }
 

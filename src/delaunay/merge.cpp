@@ -202,7 +202,8 @@ std::vector<std::uint32_t> points_to_merge(std::span<const Point2> points, std::
           }
         });
   }
-  std::ranges::copy_if(crowded, std::back_inserter(found), [&](std::uint32_t i) { return i < points.size(); });
+  std::ranges::copy_if(crowded, std::back_inserter(found),
+                       [&](std::uint32_t i) { return i < points.size(); });
   tbb::parallel_sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
@@ -240,8 +241,9 @@ LargeVector<std::uint32_t> find_representatives(std::span<const Point2> all, std
   LargeVector<std::uint32_t> representative(all.size());
   std::iota(representative.begin(), representative.end(), 0U);
   const std::vector<std::uint32_t> to_merge =
-      snap > 0 ? range(0, point_count)
-               : points_to_merge(all.first(point_count), all.subspan(point_count), crowded, line_snap, progress);
+      snap > 0
+          ? range(0, point_count)
+          : points_to_merge(all.first(point_count), all.subspan(point_count), crowded, line_snap, progress);
   const std::vector<Placed> points =
       merge_in_order(sort_places(all, to_merge, progress), snap, representative, progress);
   if (point_count == all.size()) return representative;
@@ -359,8 +361,8 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   merged.of_point.resize(point_count);
   merged.of_line_vertex.resize(all.size() - point_count);
   CurveOrder order = order_along_curve(all, progress);
-  LargeVector<std::uint32_t> name = find_representatives(
-      all, point_count, order.crowded, options.snap, std::max(options.snap, merged.pixel / 4), progress);
+  LargeVector<std::uint32_t> name = find_representatives(all, point_count, order.crowded, options.snap,
+                                                         std::max(options.snap, merged.pixel / 4), progress);
   progress.advance(0.5);
 
   number_groups(all, point_count, name, merged, progress);

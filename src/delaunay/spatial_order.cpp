@@ -180,8 +180,8 @@ class Settler {
     std::sort(run.begin(), run.end());
     for (std::size_t j = 0; j < run.size(); ++j) {
       indices_[begin + j] = run[j].index;
-      const bool shared = (j > 0 && run[j - 1].key == run[j].key) ||
-                          (j + 1 < run.size() && run[j + 1].key == run[j].key);
+      const bool shared =
+          (j > 0 && run[j - 1].key == run[j].key) || (j + 1 < run.size() && run[j + 1].key == run[j].key);
       if (shared) crowded.push_back(run[j].index);
     }
   }
@@ -203,9 +203,8 @@ CurveOrder order_along_curve(std::span<const Point2> points, const Progress& pro
   if (!std::is_sorted(packed.begin(), packed.end())) {
     RawVector<std::uint64_t> other(points.size());
     for (unsigned bit = kIndexBits; bit < kIndexBits + kUpperBits; bit += kDigitBits) {
-      sort_by_digit(packed, other, progress, [bit](std::uint64_t item) {
-        return item >> bit & (kBuckets - 1);
-      });
+      sort_by_digit(packed, other, progress,
+                    [bit](std::uint64_t item) { return item >> bit & (kBuckets - 1); });
     }
   }
   CurveOrder order;

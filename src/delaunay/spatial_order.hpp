@@ -20,8 +20,8 @@ struct CurveOrder {
   std::vector<std::uint32_t> crowded;
 };
 
-/// Orders fewer than 2^31 points along a Hilbert curve through their bounding box. Complexity: linear, but for
-/// points that are much closer together than the box is wide.
+/// Orders fewer than 2^31 points along a Hilbert curve through their bounding box. Complexity: linear, but
+/// for points that are much closer together than the box is wide.
 CurveOrder order_along_curve(std::span<const Point2> points, const Progress& progress);
 inline std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
   return order_along_curve(points, progress).indices;

@@ -40,13 +40,13 @@ std::vector<std::vector<VertexId>> rim_loops(const Tin& tin) {
 std::vector<HalfedgeId> rim_halfedges(const Tin& tin) {
   constexpr std::size_t kBlock = 1 << 16;
   const Progress uncancelled;
-  auto rim = list_in_order<HalfedgeId>(
-      tin.halfedge_count(), kBlock, uncancelled,
-      [&tin](std::size_t begin, std::size_t end, std::vector<HalfedgeId>& found) {
-        for (std::size_t h = begin; h < end; ++h) {
-          if (tin.on_rim(HalfedgeId{h})) found.emplace_back(h);
-        }
-      });
+  auto rim =
+      list_in_order<HalfedgeId>(tin.halfedge_count(), kBlock, uncancelled,
+                                [&tin](std::size_t begin, std::size_t end, std::vector<HalfedgeId>& found) {
+                                  for (std::size_t h = begin; h < end; ++h) {
+                                    if (tin.on_rim(HalfedgeId{h})) found.emplace_back(h);
+                                  }
+                                });
   std::ranges::sort(rim, {}, [&](HalfedgeId h) { return std::pair(tin.origin(h), h); });
   return rim;
 }

@@ -14,9 +14,10 @@
 //    moves.
 // Every condition, once true, stays true while labels are fixed, so the final set is the same in any order.
 //
-// Blocks of variables are first reduced by themselves, each by one thread, as if all labels outside were open:
-// what is true of those holds whatever they are. Labels that would need links wait for all blocks, and so do
-// neighbours outside. Costs may tie at all levels, so borders of blocks do not depend on the thread count.
+// Blocks of variables are first reduced by themselves, each by one thread, as if all labels outside were
+// open: what is true of those holds whatever they are. Labels that would need links wait for all blocks, and
+// so do neighbours outside. Costs may tie at all levels, so borders of blocks do not depend on the thread
+// count.
 #include "optimize/reduction.hpp"
 
 #include "base/ordered_blocks.hpp"
@@ -255,7 +256,8 @@ Reduction reduce(const Labelling<Criteria>& problem, const Progress& progress) {
 
 namespace {
 
-/// Components: those within a block of variables are found by one thread, the others when all blocks are done.
+/// Components: those within a block of variables are found by one thread, the others when all blocks are
+/// done.
 template <std::size_t Criteria>
 class Splitter {
  public:
@@ -312,8 +314,8 @@ class Splitter {
   }
 
  private:
-  /// Appends the component of a variable as a part, if it is new and lies within the range; what of it does is
-  /// outside, if not all does.
+  /// Appends the component of a variable as a part, if it is new and lies within the range; what of it does
+  /// is outside, if not all does.
   void take_component(std::uint32_t seed, Range ours, Partition& parts, std::vector<std::uint32_t>& outside) {
     const std::size_t first = parts.first.back();
     bool whole = true;
@@ -364,8 +366,7 @@ class Splitter {
   /// Ascending.
   [[nodiscard]] std::span<const std::uint32_t> link_block(std::uint32_t block) const {
     return std::span(in_link_blocks_)
-        .subspan(first_of_link_block_[block],
-                 first_of_link_block_[block + 1] - first_of_link_block_[block]);
+        .subspan(first_of_link_block_[block], first_of_link_block_[block + 1] - first_of_link_block_[block]);
   }
 
   const Labelling<Criteria>& problem_;

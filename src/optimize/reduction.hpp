@@ -21,7 +21,9 @@ class LinkBlocks {
   LinkBlocks() = default;
   /// Pre: `variables` ascend, below `count`; one block each.
   LinkBlocks(std::size_t count, std::vector<std::uint32_t> variables, std::vector<std::uint32_t> blocks)
-      : variables_(std::move(variables)), blocks_(std::move(blocks)), listed_(variables_.empty() ? 0 : count) {
+      : variables_(std::move(variables)),
+        blocks_(std::move(blocks)),
+        listed_(variables_.empty() ? 0 : count) {
     for (const std::uint32_t q : variables_) listed_[q] = true;
   }
   /// The block of a variable, or kNone. Complexity: constant for most variables, log n for those in blocks.
@@ -58,8 +60,8 @@ struct Partition {
   [[nodiscard]] std::size_t size() const { return first.size() - 1; }
 };
 
-/// Connected components of the open variables, through non-zero weights and through common blocks. Their order
-/// does not depend on the number of threads. Complexity: linear.
+/// Connected components of the open variables, through non-zero weights and through common blocks. Their
+/// order does not depend on the number of threads. Complexity: linear.
 template <std::size_t Criteria>
 Partition split(const Labelling<Criteria>& problem, const Reduction& reduction, const Progress& progress);
 

@@ -175,8 +175,8 @@ struct ManyProblems {
       }
       all.first.push_back(static_cast<std::uint32_t>(all.neighbour.size()));
       const Link link = part.has_link(q) ? part.link[q] : Link{};
-      all.link.push_back(
-          link.exists() ? Link{first_node[p] + link.a, first_node[p] + link.b, link.helpful()} : Link{});
+      all.link.push_back(link.exists() ? Link{first_node[p] + link.a, first_node[p] + link.b, link.helpful()}
+                                       : Link{});
     }
     all.tables.index(count);
     return all;

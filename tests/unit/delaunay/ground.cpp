@@ -164,8 +164,7 @@ TEST(Ground, ConflictsAreInOrderOnAnyNumberOfThreads) {
     EXPECT_EQ(by_one[i].xy, by_four[i].xy);
     EXPECT_EQ(by_one[i].source_b, by_four[i].source_b);
     if (i == 0) continue;
-    EXPECT_LE(std::pair(by_one[i - 1].xy.y, by_one[i - 1].xy.x),
-              std::pair(by_one[i].xy.y, by_one[i].xy.x));
+    EXPECT_LE(std::pair(by_one[i - 1].xy.y, by_one[i - 1].xy.x), std::pair(by_one[i].xy.y, by_one[i].xy.x));
   }
   options.crossing = CrossingRule::Error;
   const auto message = [&] {
