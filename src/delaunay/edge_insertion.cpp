@@ -16,8 +16,14 @@
 //    that come to lie at them are linked when the second one is made.
 // 3. Flips make the new sides inside Delaunay. Sides of the chains were and stay sides of the constrained
 //    Delaunay triangulation: a cell behind them sees nothing new.
+// 4. Threads share the vertices out in ranges of their numbers. One inserts an edge if both its ends and all
+//    corners of the cells that it crosses are its own; the others wait until all are done. What it rewrites
+//    are cells with three corners of its own; of other cells it writes the sides between two of its own, and
+//    reads corners and sides only at its own. A cell has but three corners, so no other thread writes any of
+//    these. The outcome is unique, whoever inserts what and when.
 #include "edge_insertion.hpp"
 
+#include "base/id_range.hpp"
 #include "base/parallel.hpp"
 
 #include <thalweg/base/assert.hpp>
@@ -36,20 +42,13 @@ constexpr std::size_t kBlock = 1 << 14;  // cells
 constexpr std::size_t kLeastEdges = 1 << 9;
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-/// Vertices with numbers from `begin` to before `end`.
-struct VertexRange {
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
-  [[nodiscard]] bool contains(std::uint32_t v) const { return v - begin < end - begin; }
-};
-
 class EdgeInsertion {
  public:
   enum class Outcome : std::uint8_t { Inserted, NotOurs, Fault };
 
   /// `incident`: for each vertex a cell that it is a corner of.
-  EdgeInsertion(const Positions& at, std::span<Cell> cells, std::span<std::uint32_t> incident,
-                VertexRange ours, const Progress& progress)
+  EdgeInsertion(const Positions& at, std::span<Cell> cells, std::span<std::uint32_t> incident, IdRange ours,
+                const Progress& progress)
       : at_(at), cells_(cells), progress_(progress), incident_(incident), ours_(ours) {}
 
   /// Changes nothing unless it is inserted.
@@ -92,7 +91,7 @@ class EdgeInsertion {
   std::span<Cell> cells_;
   const Progress& progress_;
   std::span<std::uint32_t> incident_;
-  VertexRange ours_;
+  IdRange ours_;
   std::vector<std::uint32_t> cavity_;    ///< cells crossed, in order
   std::vector<Piece> pieces_;            ///< of both chains
   std::vector<std::uint32_t> piece_of_;  ///< for each cell of the cavity: the piece at the side not crossed
@@ -368,10 +367,10 @@ std::optional<VertexPair> insert_edges(const Positions& at, std::span<Cell> cell
                                        std::span<const DrawnEdge> edges, std::size_t threads,
                                        const Progress& progress) {
   RawVector<std::uint32_t> incident = incident_cells(at, cells, progress);
-  const auto insert_of = [&](VertexRange ours, std::span<const DrawnEdge> some) {
+  const auto insert_of = [&](IdRange ours, std::span<const DrawnEdge> some) {
     return insert_own({at, cells, incident, ours, progress}, some, progress);
   };
-  const VertexRange all{0, at.infinity()};
+  const IdRange all{0, at.infinity()};
   const std::size_t parts = std::min(threads, edges.size() / kLeastEdges);
   if (parts < 2) return insert_of(all, edges).fault;
   std::vector<Rest> rests(parts);
@@ -379,7 +378,7 @@ std::optional<VertexPair> insert_edges(const Positions& at, std::span<Cell> cell
     const auto limit = [&](std::size_t part) {
       return part == 0 ? 0 : part == parts ? all.end : edges[part * edges.size() / parts].ends.first;
     };
-    const VertexRange ours{limit(i), limit(i + 1)};
+    const IdRange ours{limit(i), limit(i + 1)};
     const auto first_from = [&](std::uint32_t v) {
       return std::ranges::lower_bound(edges, v, {}, [](const DrawnEdge& edge) { return edge.ends.first; });
     };

@@ -23,6 +23,7 @@ struct CurveOrder {
 /// Orders fewer than 2^31 points along a Hilbert curve through their bounding box. Complexity: linear, but
 /// for points that are much closer together than the box is wide.
 CurveOrder order_along_curve(std::span<const Point2> points, const Progress& progress);
+/// Its indices alone.
 inline std::vector<std::uint32_t> hilbert_order(std::span<const Point2> points, const Progress& progress) {
   return order_along_curve(points, progress).indices;
 }

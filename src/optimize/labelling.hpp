@@ -21,7 +21,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// An edge between two nodes of a multigraph that exists while its variable has the label `helpful`: One if
 /// the smaller node comes first.
 struct Link {
-  std::uint32_t a = kNone;  ///< kNone, or b: the variable has no edge
+  std::uint32_t a = kNone;  ///< the same as b: the variable has no edge
   std::uint32_t b = kNone;
 
   Link() = default;

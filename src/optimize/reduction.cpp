@@ -20,6 +20,7 @@
 // count.
 #include "optimize/reduction.hpp"
 
+#include "base/id_range.hpp"
 #include "base/ordered_blocks.hpp"
 #include "optimize/blocks.hpp"
 
@@ -36,13 +37,6 @@ namespace {
 
 constexpr std::size_t kSteps = 8192;       // between looks at the progress
 constexpr std::size_t kBlock = 1U << 15U;  // variables
-
-/// Variables from `begin` to before `end`.
-struct Range {
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
-  [[nodiscard]] bool contains(std::uint32_t q) const { return q - begin < end - begin; }
-};
 
 /// Tables may reach anywhere: with them, all is one block.
 template <std::size_t Criteria>
@@ -120,7 +114,7 @@ class Reducer {
     again_ = {};
   }
 
-  void reduce_block(Range ours, Rest& rest) {
+  void reduce_block(IdRange ours, Rest& rest) {
     const auto label_of = [&](std::uint32_t q) { return ours.contains(q) ? out_.label[q] : Label::Open; };
     std::uint32_t next = ours.begin;  // not yet looked at for the first time
     const auto wake = [&](std::uint32_t q) {
@@ -287,7 +281,7 @@ class Splitter {
         problem_.size(), block_size(problem_), progress,
         [&](std::size_t begin, std::size_t end, Found& found) {
           found = {};
-          const Range ours{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+          const IdRange ours{static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
           for (std::uint32_t seed = ours.begin; seed < ours.end; ++seed) {
             take_component(seed, ours, found.parts, found.outside);
           }
@@ -316,7 +310,8 @@ class Splitter {
  private:
   /// Appends the component of a variable as a part, if it is new and lies within the range; what of it does
   /// is outside, if not all does.
-  void take_component(std::uint32_t seed, Range ours, Partition& parts, std::vector<std::uint32_t>& outside) {
+  void take_component(std::uint32_t seed, IdRange ours, Partition& parts,
+                      std::vector<std::uint32_t>& outside) {
     const std::size_t first = parts.first.back();
     bool whole = true;
     const auto reach = [&](std::uint32_t q) {
@@ -339,7 +334,7 @@ class Splitter {
   }
 
   template <class Reach>
-  void reach_from(std::uint32_t q, Range ours, const Reach& reach) {
+  void reach_from(std::uint32_t q, IdRange ours, const Reach& reach) {
     for (std::size_t j = problem_.first[q]; j < problem_.first[q + 1]; ++j) {
       if (!is_zero<Criteria>(problem_.weight[j])) reach(problem_.neighbour[j]);
     }

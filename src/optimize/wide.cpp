@@ -16,7 +16,6 @@
 #include "optimize/relaxation.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace thalweg {
 
