@@ -29,6 +29,15 @@ using Cdt =
 // A few milliseconds of work.
 constexpr std::size_t kStepsBetweenChecks = 2048;
 
+/// Indices of the points round by round, each along a Hilbert curve.
+std::vector<std::uint32_t> insertion_order(std::span<const Point2> points, const Progress& progress) {
+  const std::vector<std::uint32_t> order = hilbert_order(points, progress);
+  const auto count = static_cast<std::uint32_t>(order.size());
+  std::vector<std::uint32_t> rounds = in_rounds(count, [](std::uint32_t) { return true; });
+  for (std::uint32_t& i : rounds) i = order[i];
+  return rounds;
+}
+
 std::vector<Cdt::Vertex_handle> insert_points(Cdt& cdt, std::span<const Point2> points, Progress& progress) {
   const std::vector<std::uint32_t> order = insertion_order(points, progress);
   std::vector<Cdt::Vertex_handle> vertices(points.size());

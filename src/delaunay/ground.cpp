@@ -73,20 +73,25 @@ std::optional<double> height_at_rim(const Tin& tin, Point2 p, double reach) {
   return height;
 }
 
+const Passage& line_through(const Drawing& drawing, std::size_t v) {
+  return *std::ranges::lower_bound(drawing.passages, v, {}, &Passage::vertex);
+}
+
 [[noreturn]] void refuse_outside(const Survey& survey, const Drawing& drawing, std::uint32_t v) {
-  const auto passage = std::ranges::lower_bound(drawing.passages, v, {}, &Passage::vertex);
+  const Passage& passage = line_through(drawing, v);
   throw Error(
       ErrorCode::OutsideHull,
       fmt::format("{} at {} has no height and lies outside of the ground of points and lines with heights; "
                   "give it a height (3D geometry or --line-z-field), shorten the line, or add points there",
-                  describe_line_vertex(survey, passage->line, passage->at),
+                  describe_line_vertex(survey, passage.line, passage.at),
                   describe_place(survey, drawing.vertices.xy[v])));
 }
 
 // Step 2. A vertex that rounding has put outside of the base's hull takes the height of the hull.
 void drape(const Survey& survey, MergedVertices merged, const GroundOptions& options, const Drawing& drawing,
            Heights& heights, Progress& progress) {
-  if (std::find(heights.known.begin(), heights.known.end(), false) == heights.known.end()) return;
+  const auto unknown = std::find(heights.known.begin(), heights.known.end(), false);
+  if (unknown == heights.known.end()) return;
   const auto hard = lines_to_draw(
       survey, [](const SurveyLine& line) { return !line.z.empty() && !has(line.kind, EdgeKind::Lake); });
   Drawing base = draw(survey, std::move(merged), hard, progress);
@@ -96,7 +101,9 @@ void drape(const Survey& survey, MergedVertices merged, const GroundOptions& opt
         fmt::format(
             "{} has no heights of its own, and three points with heights, from which it could get them, "
             "are not there",
-            describe_line(survey, 0)));
+            describe_line(
+                survey,
+                line_through(drawing, static_cast<std::size_t>(unknown - heights.known.begin())).line)));
   }
   Heights base_heights = resolve_heights(survey, base, options, progress);
   const std::vector<ConstraintEdge> edges = constraint_edges(survey, base);

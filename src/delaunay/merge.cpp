@@ -63,6 +63,15 @@ bool fit(Point2 p, double z) {
                           what, p.x, p.y, z));
 }
 
+void check_size(std::size_t positions) {
+  constexpr std::size_t kMost = (std::size_t{1} << 31U) - 1;
+  if (positions <= kMost) return;
+  throw Error(ErrorCode::SizeLimit,
+              fmt::format("points and vertices of lines are {}, more than {}; split the "
+                          "area",
+                          positions, kMost));
+}
+
 void check_coordinates(const Survey& survey, const Progress& progress) {
   const std::vector<Point2>& xy = survey.points.xy;
   const std::vector<double>& heights = survey.points.z;
@@ -354,6 +363,7 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   MergedVertices merged;
   const std::size_t point_count = survey.points.xy.size();
   merged.first_of_line = first_vertices(survey.lines);
+  check_size(point_count + merged.first_of_line.back());
   std::vector<Point2> with_lines;
   if (!survey.lines.empty()) with_lines = all_positions(survey, point_count + merged.first_of_line.back());
   const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;

@@ -2,15 +2,16 @@
 //
 // 1. A membership is a bit pattern of 64: bit 0 is the parity of boundary rings; each area of holes (a
 // feature)
-//    has a pattern of its own in the other bits, and a triangle has the exclusive or of those of the areas
-//    that it is in. So it is in none exactly if these bits are 0: patterns of distinct areas differ, so two
-//    areas never cancel out; three or more that overlap in one place might, with probability 2^-63.
+//    has a pattern in the other bits that looks random, and a triangle has the exclusive or of those of the
+//    areas that it is in. If it is in none, these bits are 0; if it is in several, they would be 0 only by a
+//    coincidence of 63 bits. The patterns are the same in every run.
 // 2. Rings are closed walks, so the exclusive or of the patterns that a path crosses depends only on its
 // ends:
 //    noding may bend a ring, or fold parts of it upon each other, which then cancel out.
 // 3. Flood from the rim, outside of which the pattern is 0, from triangle to triangle.
 #include "region.hpp"
 
+#include "base/splitmix.hpp"
 #include "provenance.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -32,14 +33,6 @@ bool is_ring(const SurveyLine& line) {
 
 bool is_area(const SurveyLine& line) {
   return is_ring(line) || has(line.kind, EdgeKind::Lake);
-}
-
-// splitmix64 (Steele, Lea, Flood, 2014): a bijection, so numbers below 2^63 have distinct patterns.
-std::uint64_t pattern_of(std::uint64_t area) {
-  std::uint64_t value = (area + 1) * 0x9e3779b97f4a7c15U;
-  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
-  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
-  return (value ^ (value >> 31U)) | kBoundary;
 }
 
 std::uint64_t toggles_at(std::span<const RingEdge> edges, VertexId a, VertexId b) {
@@ -83,7 +76,7 @@ std::vector<RingEdge> ring_edges(const Survey& survey, const Drawing& drawing) {
     std::uint64_t toggles = has(line.kind, EdgeKind::Boundary) ? kBoundary : 0;
     if (has(line.kind, EdgeKind::Hole)) {
       const auto area = area_numbers.emplace(std::pair(line.source, line.feature), area_numbers.size()).first;
-      toggles |= pattern_of(area->second) & ~kBoundary;
+      toggles |= splitmix64(area->second) & ~kBoundary;
     }
     const auto chain = drawing.noding.chain(s);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {

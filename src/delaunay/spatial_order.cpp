@@ -11,6 +11,7 @@
 #include "base/large_pages.hpp"
 #include "base/ordered_blocks.hpp"
 #include "base/parallel.hpp"
+#include "base/splitmix.hpp"
 
 #include <thalweg/base/raw_vector.hpp>
 
@@ -241,21 +242,8 @@ std::vector<std::uint32_t> coarse_hilbert_order(std::span<const Point2> points, 
 }
 
 std::size_t insertion_round(std::uint32_t index) {
-  // splitmix64: Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014.
-  std::uint64_t value = index + 0x9e3779b97f4a7c15U;
-  value = (value ^ (value >> 30U)) * 0xbf58476d1ce4e5b9U;
-  value = (value ^ (value >> 27U)) * 0x94d049bb133111ebU;
-  value ^= value >> 31U;
-  const auto earlier = static_cast<std::size_t>(std::countr_zero(value | 1ULL << 62U)) / 4;
+  const auto earlier = static_cast<std::size_t>(std::countr_zero(splitmix64(index) | 1ULL << 62U)) / 4;
   return kInsertionRounds - 1 - std::min(earlier, kInsertionRounds - 1);
-}
-
-std::vector<std::uint32_t> insertion_order(std::span<const Point2> points, const Progress& progress) {
-  const std::vector<std::uint32_t> order = hilbert_order(points, progress);
-  const auto count = static_cast<std::uint32_t>(order.size());
-  std::vector<std::uint32_t> rounds = in_rounds(count, [](std::uint32_t) { return true; });
-  for (std::uint32_t& i : rounds) i = order[i];
-  return rounds;
 }
 
 }  // namespace thalweg

@@ -51,7 +51,4 @@ std::vector<std::uint32_t> in_rounds(std::uint32_t count, const Belongs& belongs
   return indices;
 }
 
-/// Indices of the points round by round, each along the Hilbert curve.
-std::vector<std::uint32_t> insertion_order(std::span<const Point2> points, const Progress& progress);
-
 }  // namespace thalweg

@@ -114,10 +114,16 @@ std::string describe(Point2 p) {
 }
 
 /// Each pair of vertices once, with all its kinds; sorted.
-std::vector<DrawnEdge> drawn_edges(std::span<const ConstraintEdge> constraints) {
+std::vector<DrawnEdge> drawn_edges(std::span<const ConstraintEdge> constraints, std::size_t vertex_count) {
   std::vector<DrawnEdge> all;
   all.reserve(constraints.size());
   for (const ConstraintEdge& edge : constraints) {
+    if (edge.a == edge.b || edge.a.index() >= vertex_count || edge.b.index() >= vertex_count) {
+      throw Error(ErrorCode::InvalidTin, "the constraint edge between vertices " +
+                                             std::to_string(edge.a.value()) + " and " +
+                                             std::to_string(edge.b.value()) + " does not join two of the " +
+                                             std::to_string(vertex_count));
+    }
     all.push_back({std::minmax(edge.a.value(), edge.b.value()), edge.kind});
   }
   std::ranges::sort(all, {}, &DrawnEdge::ends);
@@ -142,8 +148,9 @@ Tin triangulate(std::vector<Point2> points, std::vector<double> heights,
     throw Error(ErrorCode::TooFewPoints,
                 "a triangulation needs three distinct points, there are " + std::to_string(points.size()));
   }
+  check_counts(2 * points.size(), points.size());
   progress.start_phase("triangulating");
-  const std::vector<DrawnEdge> edges = drawn_edges(constraints);
+  const std::vector<DrawnEdge> edges = drawn_edges(constraints, points.size());
   Triangulated result = engine == TriangulationEngine::Flat
                             ? triangulate_flat(points, edges, points_are, progress)
                             : triangulate_by_cgal(points, edges, progress);

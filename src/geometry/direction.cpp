@@ -1,6 +1,8 @@
 // The exact stage, behind the inline filter. Where the differences of coordinates are exact doubles, the two
 // products are compared by their rounded values first, for rounding never reverses an order, and where these
 // are equal by what rounding took off, which is a double, too. The rest is for rationals.
+#include "geometry/exact_difference.hpp"
+
 #include <thalweg/geometry/direction.hpp>
 
 #include <CGAL/Exact_rational.h>
@@ -11,12 +13,9 @@ namespace thalweg::detail {
 
 namespace {
 
-// The error of a subtraction is exact in doubles (Knuth's TwoSum); it is 0 where the difference is.
 std::optional<double> exact_difference(double a, double b) {
   const double difference = a - b;
-  const double moved = a - difference;
-  const bool exact = (a - (difference + moved)) + (moved - b) == 0;
-  return exact ? std::optional(difference) : std::nullopt;
+  return is_exact_difference(a, b, difference) ? std::optional(difference) : std::nullopt;
 }
 
 // None where an error may lie below what doubles hold.

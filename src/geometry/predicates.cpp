@@ -10,6 +10,8 @@
 //    Points are handed on by reference: a copy of what was just stored in parts waits for all of them.
 // 3. Segment against open disc: the condition is written without division as signs of polynomials in
 //    coordinates relative to a, evaluated in intervals first and in rationals where those do not decide.
+#include "geometry/exact_difference.hpp"
+
 #include <thalweg/geometry/predicates.hpp>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -64,13 +66,6 @@ std::optional<bool> passes_through_disc_filtered(Point2 a, Point2 b, Point2 c, P
   return std::nullopt;
 }
 
-/// Whether a - b is exact: what rounding took off, by Knuth's two-sum, is zero.
-bool exact_difference(double a, double b, double difference) {
-  const double b_part = a - difference;
-  const double a_part = difference + b_part;
-  return a - a_part == 0 && b_part - b == 0;
-}
-
 /// Differences of points as integers in one common unit, if they are such exactly. The largest has kBits.
 constexpr int kBits = 61;
 template <std::size_t Count>
@@ -81,8 +76,8 @@ std::optional<std::array<std::int64_t, Count>> integer_differences(
   for (std::size_t i = 0; i < Count / 2; ++i) {
     exact[2 * i] = points[i]->x - origin.x;
     exact[2 * i + 1] = points[i]->y - origin.y;
-    if (!exact_difference(points[i]->x, origin.x, exact[2 * i]) ||
-        !exact_difference(points[i]->y, origin.y, exact[2 * i + 1])) {
+    if (!detail::is_exact_difference(points[i]->x, origin.x, exact[2 * i]) ||
+        !detail::is_exact_difference(points[i]->y, origin.y, exact[2 * i + 1])) {
       return std::nullopt;
     }
     largest = std::max({largest, std::abs(exact[2 * i]), std::abs(exact[2 * i + 1])});
@@ -97,7 +92,8 @@ std::optional<std::array<std::int64_t, Count>> integer_differences(
   for (std::size_t i = 0; i < Count; ++i) {
     const double scaled = exact[i] * scale;
     integers[i] = static_cast<std::int64_t>(scaled);
-    if (static_cast<double>(integers[i]) != scaled) return std::nullopt;
+    const bool lost = scaled == 0 && exact[i] != 0;  // too small for a double
+    if (lost || static_cast<double>(integers[i]) != scaled) return std::nullopt;
   }
   return integers;
 }

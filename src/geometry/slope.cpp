@@ -2,6 +2,8 @@
 // doubles decide: (1) each of the two products has a factor that is zero; (2) all differences are whole
 // numbers below 2^16, and exact: then so are all products and sums, which stay below 2^53. The rest is for
 // rationals.
+#include "geometry/exact_difference.hpp"
+
 #include <thalweg/geometry/slope.hpp>
 
 #include <CGAL/Exact_rational.h>
@@ -17,22 +19,20 @@ bool is_small_whole(double x) {
   return std::abs(x) < 0x1p16 && std::trunc(x) == x;
 }
 
-// The error of a subtraction is exact in doubles (Knuth's TwoSum); it is 0 where the difference is.
-bool is_exact(double x, double y, double difference) {
-  const double moved = x - difference;
-  return (x - (difference + moved)) + (moved - y) == 0;
-}
-
 std::optional<double> determinant_in_doubles(Point2 a, double za, Point2 b, double zb, Point2 c, double zc) {
   const double ux = b.x - a.x, uy = b.y - a.y, uz = zb - za;
   const double vx = c.x - a.x, vy = c.y - a.y, vz = zc - za;
   const bool perpendicular = (ux == 0 || vx == 0) && (uy == 0 || vy == 0);
-  if (vz == 0 && (uz == 0 || perpendicular)) return 0;
+  if (vz == 0 && perpendicular) return 0;
   for (const double d : {ux, uy, uz, vx, vy, vz}) {
     if (!is_small_whole(d)) return std::nullopt;
   }
-  if (!is_exact(b.x, a.x, ux) || !is_exact(b.y, a.y, uy) || !is_exact(zb, za, uz)) return std::nullopt;
-  if (!is_exact(c.x, a.x, vx) || !is_exact(c.y, a.y, vy) || !is_exact(zc, za, vz)) return std::nullopt;
+  if (!is_exact_difference(b.x, a.x, ux) || !is_exact_difference(b.y, a.y, uy) ||
+      !is_exact_difference(zb, za, uz))
+    return std::nullopt;
+  if (!is_exact_difference(c.x, a.x, vx) || !is_exact_difference(c.y, a.y, vy) ||
+      !is_exact_difference(zc, za, vz))
+    return std::nullopt;
   return vz * (ux * ux + uy * uy) - uz * (ux * vx + uy * vy);
 }
 

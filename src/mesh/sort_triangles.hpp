@@ -36,7 +36,7 @@ struct SortedCorners {
 template <class Source>
 SortedCorners sort_triangles(const Source& source, std::span<const VertexId> number, std::size_t vertex_count,
                              const Progress& progress) {
-  check_triangle_count(source.size());
+  check_counts(source.size(), vertex_count);
   const auto renamed = [&](std::size_t t, std::size_t i) {
     const VertexId v = source.corner(t, i);
     return number.empty() ? v : number[v.index()];

@@ -33,11 +33,12 @@ void sort_bucket(std::span<Triangle> bucket) {
 
 }  // namespace
 
-void check_triangle_count(std::size_t count) {
+void check_counts(std::size_t triangles, std::size_t vertices) {
   constexpr std::size_t kMost = (std::size_t{1} << 30U) - 1;
-  if (count <= kMost) return;
-  throw Error(ErrorCode::SizeLimit, "a TIN holds at most " + std::to_string(kMost) + " triangles, not " +
-                                        std::to_string(count) + "; split the area");
+  if (triangles <= kMost && vertices <= kMost) return;
+  throw Error(ErrorCode::SizeLimit, "a TIN holds at most " + std::to_string(kMost) +
+                                        " triangles and vertices, not " + std::to_string(triangles) +
+                                        " and " + std::to_string(vertices) + "; split the area");
 }
 
 std::vector<std::size_t> even_limits(std::span<const TurnedTriangle> smallest, std::size_t vertex_count) {

@@ -16,8 +16,8 @@ namespace thalweg {
 // Vertices, or triangles, that a thread takes at once.
 inline constexpr std::size_t kVerticesAtOnce = 8192;
 
-/// Throws: Error{SizeLimit} from 2^30 triangles on, of which TurnedTriangle could not tell.
-void check_triangle_count(std::size_t count);
+/// Throws: Error{SizeLimit} from 2^30 triangles or vertices on, of which TurnedTriangle could not tell.
+void check_counts(std::size_t triangles, std::size_t vertices);
 
 /// A side of a triangle of a source.
 struct SourceSide {

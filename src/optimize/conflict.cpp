@@ -26,7 +26,7 @@ class ImplicationSink {
     explicit Block(ImplicationSink& sink) : sink_(sink) {}
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;
-    ~Block() {
+    void finish() {
       const std::lock_guard lock(sink_.mutex_);
       sink_.found_.insert(sink_.found_.end(), found_.begin(), found_.end());
       sink_.hopeless_ = sink_.hopeless_ || hopeless_;

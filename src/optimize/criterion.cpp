@@ -284,8 +284,8 @@ double steps_per_unit(const Objective& objective) {
 
 void refuse_term(double value) {
   throw Error(ErrorCode::SizeLimit, "a term of a criterion is " + std::to_string(value) +
-                                        ", more than 2^30 of its unit; split the area, or give the criterion "
-                                        "a small weight, such as 0.001*vertical-error");
+                                        ", too large to be added exactly; split the area, or give the "
+                                        "criterion a small weight, such as 0.001*vertical-error");
 }
 
 std::span<const CriterionTraits> all_criteria() {

@@ -13,7 +13,8 @@
 namespace thalweg {
 
 std::int64_t TermLevel::measure(double value) const {
-  const std::int64_t steps = to_steps(value);
+  // The sum of all parts has to have 63 bits too.
+  const std::int64_t steps = to_steps(value, kMostUnits / static_cast<double>(parts.size()));
   if (!limit) return steps;
   return steps > *limit ? 1 : 0;
 }

@@ -92,14 +92,14 @@ void find_normals(const Tin& tin, std::span<const Triangle> triangles, Scale sca
 /// Throws: Error{SizeLimit}.
 [[noreturn]] void refuse_term(double value);
 
-/// Terms are integers: multiples of 2^-32 of their unit, rounded once. Throws: Error{SizeLimit} beyond 2^30
-/// units.
 constexpr double kStepsPerUnit = 0x1p32;
-
 constexpr double kMostUnits = 0x1p30;
 
-inline std::int64_t to_steps(double value) {
-  if (!(std::abs(value) <= kMostUnits)) refuse_term(value);
+/// Terms are integers: multiples of 2^-32 of their unit, rounded once. Throws: Error{SizeLimit} beyond so
+/// many units, 2^30 at most.
+
+inline std::int64_t to_steps(double value, double most_units = kMostUnits) {
+  if (!(std::abs(value) <= most_units)) refuse_term(value);
   const double steps = value * kStepsPerUnit + 0.5;
   const auto towards_zero = static_cast<std::int64_t>(steps);
   return towards_zero - (static_cast<double>(towards_zero) > steps ? 1 : 0);

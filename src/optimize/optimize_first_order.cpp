@@ -99,6 +99,7 @@ class Run {
     part.tables.index(part.size());
     if (problem_.pits_first) {
       part.link = problem_.connectivity().link;
+      part.link.resize(part.size());  // auxiliary variables have none
       part.node_count = problem_.connectivity().node_count;
     }
     return part;
@@ -304,6 +305,7 @@ class Run {
     Labelling<Criteria>& labelling = problem_.labelling;
     labelling.unary.resize(quadrilaterals);
     labelling.first.resize(quadrilaterals + 1);
+    if (!labelling.link.empty()) labelling.link.resize(quadrilaterals);
     for (const CountedPits& pits : counted) {
       labelling.tables.clear_level(pits.level);
       pits.terms.add_to(labelling, pits.level);

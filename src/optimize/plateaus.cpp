@@ -145,8 +145,7 @@ class Finder {
     const double at_a = tin_.height(a), at_b = tin_.height(b);
     const Label helpful = kept ? Label::Zero : Label::One;
     if (at_a != at_b) return {0, node_[(at_a < at_b ? b : a).index()], helpful};
-    const bool ordered = tin_.point(a) < tin_.point(b);
-    return {node_[(ordered ? a : b).index()], node_[(ordered ? b : a).index()], helpful};
+    return {node_[a.index()], node_[b.index()], helpful};
   }
 
   const Tin& tin_;

@@ -32,8 +32,9 @@ constexpr std::size_t kSumBlock = 1 << 15;
 struct Measure {
   double factor = 1;
   std::optional<std::int64_t> limit;
+  double most_units = kMostUnits;
   std::int64_t operator()(double value) const {
-    const std::int64_t steps = to_steps(factor * value);
+    const std::int64_t steps = to_steps(factor * value, most_units);
     if (!limit) return steps;
     return steps > *limit ? 1 : 0;
   }
@@ -52,7 +53,7 @@ class SumSink {
     explicit Block(SumSink& sink) : sink_(sink) {}
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;
-    ~Block() {
+    void finish() {
       flush();
       const std::lock_guard lock(sink_.mutex_);
       sink_.delaunay_ += delaunay_;
@@ -138,10 +139,6 @@ void refuse_overflow(const Labelling<Criteria>& labelling, std::size_t level, co
                                         objective.name());
 }
 
-}  // namespace
-
-namespace {
-
 /// Adds the tables of vertices to a level. Returns their value under labels 0.
 template <std::size_t Criteria>
 WideSteps add_tables(const VertexTerms& terms, Measure measure, std::span<const std::uint8_t> counted,
@@ -192,16 +189,21 @@ WideSteps add_terms(const TermScan& scan, const Declaration& declaration, Measur
   return delaunay;
 }
 
+double sign_of(const Objective& objective) {
+  return objective.direction() == Direction::Maximise ? -1 : 1;
+}
+
 }  // namespace
 
 template <std::size_t Criteria>
 WideSteps add_objective(const TermScan& scan, const Objective& objective, std::size_t level,
                         Labelling<Criteria>& labelling, const Progress& progress) {
+  // A cost is the sum of at most five differences of terms a part: it fits 64 bits before all are looked at.
+  const double most_units = kMostUnits / 8 / static_cast<double>(objective.parts.size());
   WideSteps delaunay = 0;
   for (const Objective::Part& part : objective.parts) {
-    const double sign = objective.direction() == Direction::Maximise ? -1 : 1;
-    delaunay += add_terms(scan, declaration_of(part.criterion), {sign * part.weight, std::nullopt}, level,
-                          labelling, progress);
+    const Measure measure{sign_of(objective) * part.weight, std::nullopt, most_units};
+    delaunay += add_terms(scan, declaration_of(part.criterion), measure, level, labelling, progress);
   }
   labelling.tables.index(labelling.size());
   refuse_overflow(labelling, level, objective, progress);
@@ -209,10 +211,6 @@ WideSteps add_objective(const TermScan& scan, const Objective& objective, std::s
 }
 
 namespace {
-
-double sign_of(const Objective& objective) {
-  return objective.direction() == Direction::Maximise ? -1 : 1;
-}
 
 /// Gathers the values of terms, and the least value that each of them alone leaves possible.
 class ExtremeSink {
@@ -224,7 +222,7 @@ class ExtremeSink {
     explicit Block(ExtremeSink& sink) : sink_(sink) {}
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;
-    ~Block() {
+    void finish() {
       const std::lock_guard lock(sink_.mutex_);
       sink_.least_ = std::max(sink_.least_, least_);
       sink_.delaunay_ = std::max(sink_.delaunay_, delaunay_);
@@ -303,7 +301,7 @@ class LabelledSink {
     explicit Block(LabelledSink& sink) : sink_(sink) {}
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;
-    ~Block() {
+    void finish() {
       const std::lock_guard lock(sink_.mutex_);
       sink_.worst_ = std::max(sink_.worst_, worst_);
     }
@@ -370,18 +368,17 @@ Extreme find_extreme(const TermScan& scan, const Objective& objective, std::span
   VertexTerms terms = find_vertex_terms(scan, declaration.vertex, progress);
   const std::vector<Label> kept(scan.quadrilaterals().size(), Label::Zero);
   std::vector<std::int64_t> wide;
-  {
-    ExtremeSink::Block block(sink);
-    for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
-    for (std::size_t i = 0; i < terms.tables.size(); ++i) block.table(terms.tables.entries(i));
-    for (const SpokedStar& star : terms.wide) {
-      wide.push_back(declaration.vertex(star.under(kept)));
-      std::vector<Weight<1>> values = {{wide.back()}};
-      for (const Star& reached : star.reachable()) values.push_back({declaration.vertex(reached)});
-      block.table(values);
-    }
-    if (declaration.sum_is_fixed) block.at_least(mean_of(terms, wide));
+  ExtremeSink::Block block(sink);
+  for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
+  for (std::size_t i = 0; i < terms.tables.size(); ++i) block.table(terms.tables.entries(i));
+  for (const SpokedStar& star : terms.wide) {
+    wide.push_back(declaration.vertex(star.under(kept)));
+    std::vector<Weight<1>> values = {{wide.back()}};
+    for (const Star& reached : star.reachable()) values.push_back({declaration.vertex(reached)});
+    block.table(values);
   }
+  if (declaration.sum_is_fixed) block.at_least(mean_of(terms, wide));
+  block.finish();
   Extreme extreme = sink.take();
   extreme.vertex = std::move(terms);
   return extreme;
@@ -399,17 +396,16 @@ std::int64_t extreme_of(const TermScan& scan, const Objective& objective,
   const VertexTerms found =
       known == nullptr ? find_vertex_terms(scan, declaration.vertex, progress) : VertexTerms{};
   const VertexTerms& terms = known == nullptr ? found : *known;
-  {
-    LabelledSink::Block block(sink);
-    for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
-    for (std::size_t i = 0; i < terms.tables.size(); ++i) {
-      const Slice slice = slice_of(terms.tables.scope(i), label);
-      block.constant(static_cast<double>(terms.tables.entries(i)[slice.base][0]));
-    }
-    for (const SpokedStar& star : terms.wide) {
-      block.constant(static_cast<double>(declaration.vertex(star.under(label))));
-    }
+  LabelledSink::Block block(sink);
+  for (const std::int64_t value : terms.constants) block.constant(static_cast<double>(value));
+  for (std::size_t i = 0; i < terms.tables.size(); ++i) {
+    const Slice slice = slice_of(terms.tables.scope(i), label);
+    block.constant(static_cast<double>(terms.tables.entries(i)[slice.base][0]));
   }
+  for (const SpokedStar& star : terms.wide) {
+    block.constant(static_cast<double>(declaration.vertex(star.under(label))));
+  }
+  block.finish();
   return sink.worst();
 }
 

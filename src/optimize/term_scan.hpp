@@ -34,7 +34,8 @@ class TermScan {
   /// Calls, on all threads, a `Block` of the sink, made anew for each block of quadrilaterals or triangles:
   ///   constant(value)                 a term that no label changes,
   ///   single(q, f0, f1)               one that the label of q decides,
-  ///   pair(neighbours, PairValues)    one that two labels decide.
+  ///   pair(neighbours, PairValues)    one that two labels decide,
+  ///   finish()                        after all of them.
   /// Every term once. `first` is that of the rows. Blocks of a sink see ascending q.
   template <class Sink>
   void run(const Declaration& declaration, std::span<const std::uint32_t> first, Sink& sink,
@@ -77,6 +78,7 @@ void TermScan::scan_edges(const Declaration& declaration, std::span<const std::u
   for_each_block(faces_.tin.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     typename Sink::Block block(sink);
     batches.local().pass(begin, end, block);
+    block.finish();
   });
 }
 
@@ -92,6 +94,7 @@ void TermScan::scan_triangles(const Declaration& declaration, Sink& sink, const 
       block.single(static_cast<std::uint32_t>(q), terms(faces_.face(uv), faces_.face(faces_.tin.twin(uv))),
                    terms(faces_.flipped_face(q, true), faces_.flipped_face(q, false)));
     }
+    block.finish();
   });
   for_each_block(faces_.tin.triangle_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     typename Sink::Block block(sink);
@@ -99,8 +102,13 @@ void TermScan::scan_triangles(const Declaration& declaration, Sink& sink, const 
       if (faces_.owner[t] != kNone) continue;
       block.constant(of_triangle(declaration, faces_.face(Tin::halfedge(TriangleId{t}, 0))));
     }
+    block.finish();
   });
-  if (declaration.against_reference != nullptr) typename Sink::Block(sink).constant(left_on_rim(progress));
+  if (declaration.against_reference != nullptr) {
+    typename Sink::Block block(sink);
+    block.constant(left_on_rim(progress));
+    block.finish();
+  }
 }
 
 }  // namespace thalweg

@@ -2,6 +2,7 @@
 #include "optimize/ties.hpp"
 
 #include "base/parallel.hpp"
+#include "base/splitmix.hpp"
 
 #include <thalweg/geometry/point.hpp>
 
@@ -14,13 +15,6 @@ namespace thalweg {
 namespace {
 
 constexpr std::size_t kBlock = 4096;
-
-std::uint64_t splitmix64(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15U;
-  x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-  x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-  return x ^ (x >> 31U);
-}
 
 std::int64_t cut_to_fit(std::uint64_t bits, std::size_t count) {
   return static_cast<std::int64_t>(bits >> (2 + static_cast<unsigned>(std::bit_width(count))));

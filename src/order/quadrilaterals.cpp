@@ -40,6 +40,7 @@
 #include <thalweg/order/quadrilaterals.hpp>
 
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -87,7 +88,11 @@ class QuadrilateralSearch {
     std::array<std::int8_t, 2> inside;
   };
   [[nodiscard]] const ConstrainedOrder& order() const {
-    return *order_.get([this] { return std::make_unique<ConstrainedOrder>(tin_, ground_.mode()); });
+    return *order_.get([this] {
+      // A thread that waits here for its own tasks must not take one of the search, which would ask too.
+      return tbb::this_task_arena::isolate(
+          [this] { return std::make_unique<ConstrainedOrder>(tin_, ground_.mode()); });
+    });
   }
   [[nodiscard]] Verdict judge_beyond(const Half& half) const;
   [[nodiscard]] Verdict judge_others(const Half& half) const;

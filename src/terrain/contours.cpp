@@ -172,7 +172,7 @@ std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& op
   constexpr double kMostHeights = 1e6;
   const double first = std::ceil((low - options.base) / options.interval);
   const double last = std::floor((top - options.base) / options.interval);
-  if (last - first > kMostHeights) {
+  if (!(last - first <= kMostHeights)) {
     throw Error(ErrorCode::Usage, "an interval of " + std::to_string(options.interval) +
                                       " gives more than a million contours; choose a larger one");
   }

@@ -38,8 +38,8 @@ struct TriangleShape {
   [[nodiscard]] bool has_along() const { return (falls & falls >> 1U & 0b010101U) != 0; }
 };
 
-/// One line of flow through a triangle that is not level, and what lies on both sides of it. Water enters
-/// over `in_left` and `in_right` (seen downhill) or over one side only, and leaves likewise.
+/// One line of flow through a triangle that is not level: it parts the water that comes in over two sides, or
+/// goes out over two.
 struct Strip {
   HalfedgeId split;           ///< the side that the line meets; across lies the corner where it ends
   double at = 0.5;            ///< where it meets that side, as share of the halfedge's way

@@ -3,10 +3,10 @@
 // Places are handed out in blocks to all threads. A walk that starts elsewhere ends in the same vertex, edge
 // or triangle, so heights do not depend on the blocks; blocks have a fixed size, so neither does the choice
 // of triangle on an edge.
+#include "base/parallel.hpp"
+
 #include <thalweg/delaunay/surface.hpp>
 #include <thalweg/terrain/sample_surface.hpp>
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -74,10 +74,9 @@ std::vector<double> SurfaceSampler::sample(std::span<const Point2> places, Surfa
                                            const Progress& progress) const {
   constexpr std::size_t kBlock = 4096;
   std::vector<double> values(places.size(), kNone);
-  tbb::parallel_for(std::size_t{0}, (places.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-    progress.check();
+  for_each_block(places.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     TriangleId hint;
-    for (std::size_t i = block * kBlock; i < std::min(places.size(), (block + 1) * kBlock); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       const std::optional<SurfacePlace> place = index_->locator.locate(places[i], hint);
       if (!place) continue;
       hint = place->triangle;

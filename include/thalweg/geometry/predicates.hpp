@@ -38,7 +38,8 @@ struct RoundedDeterminant {
 };
 
 /// Error bounds of all filters: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997, section 4
-/// (stage A): (a + b epsilon) epsilon times the sum of the sizes of what was added.
+/// (stage A): (a + b epsilon) epsilon times the sum of the sizes of what was added; above `no_underflow` what
+/// products lose that are too small for doubles, 2^-1075 each times up to 1e100 a factor, is less than that.
 namespace detail {
 constexpr RoundedDeterminant with_doubt(double value, double size, double a, double b, double no_underflow) {
   constexpr double kEpsilon = 0x1p-53;
@@ -74,7 +75,7 @@ inline RoundedDeterminant in_circle_rounded(Point2 a, Point2 b, Point2 c, Point2
   const double size = (std::abs(bc) + std::abs(cb)) * a_lift + (std::abs(ca) + std::abs(ac)) * b_lift +
                       (std::abs(ab) + std::abs(ba)) * c_lift;
   return detail::with_doubt(a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba), size, 10, 96,
-                            1e-250);
+                            1e-105);
 }
 
 /// As `in_circle`, or kUndecided; a coordinate that is NaN is always undecided.
@@ -103,7 +104,7 @@ inline int side_of_plane(Point2 a, Point2 b, Point2 c, Point2 d, const std::arra
   const double size = (std::abs(bc) + std::abs(cb)) * std::abs(adz) +
                       (std::abs(ca) + std::abs(ac)) * std::abs(bdz) +
                       (std::abs(ab) + std::abs(ba)) * std::abs(cdz);
-  const int sign = detail::with_doubt(above, size, 7, 56, 1e-250).sign();
+  const int sign = detail::with_doubt(above, size, 7, 56, 1e-205).sign();
   if (sign != kUndecided) return sign;
   return detail::side_of_plane_exact(a, b, c, d, heights);
 }

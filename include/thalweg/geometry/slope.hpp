@@ -23,7 +23,7 @@ inline RoundedDeterminant fall_across_rounded(Point2 a, double za, Point2 b, dou
   const double rise = (zc - za) * (ux * ux + uy * uy);
   const double x = ux * vx, y = uy * vy;
   const double size = std::abs(rise) + std::abs(zb - za) * (std::abs(x) + std::abs(y));
-  return detail::with_doubt(rise - (zb - za) * (x + y), size, 10, 0, 1e-280);
+  return detail::with_doubt(rise - (zb - za) * (x + y), size, 10, 0, 1e-205);
 }
 
 /// How the triangle abc falls across its side ab: +1 if water on it runs towards ab and over it, -1 if it
