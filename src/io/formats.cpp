@@ -127,7 +127,7 @@ std::vector<TinFormat> mesh_formats() {
        read_stl},
       {{"GLB", "glTF 2.0 (binary), single precision", {".glb"}, false, true, edges},
        Crs::InSidecar,
-       Numbers::Single,
+       Numbers::SingleYUp,
        write_glb,
        nullptr,
        nullptr},

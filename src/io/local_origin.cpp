@@ -37,12 +37,14 @@ LocalOrigin choose_origin(std::span<const Point2> xy, std::span<const double> z)
           std::floor(*low / 2 + *high / 2)};
 }
 
-void write_origin(const std::string& target, const TinView& view, const LocalOrigin& origin,
+void write_origin(const std::string& target, const TinView& view, const LocalOrigin& origin, bool y_is_up,
                   PendingOutputs& pending, Overwrite mode) {
   const std::string path = origin_path(target);
   if (origin.x == 0 && origin.y == 0 && origin.z == 0) return pending.remove_stale(path, mode);
   using Json = nlohmann::ordered_json;
-  const Json json = {{"about", "add the origin to the file's x, y, z (east, north, height)"},
+  const char* const about = y_is_up ? "add the origin to the file's x, -z, y (east, north, height)"
+                                    : "add the origin to the file's x, y, z (east, north, height)";
+  const Json json = {{"about", about},
                      {"origin", {origin.x, origin.y, origin.z}},
                      {"crs", view.crs_authority.empty() ? view.crs_wkt : view.crs_authority}};
   FileWriter file(pending.add(path, mode), path);

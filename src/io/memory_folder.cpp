@@ -5,6 +5,8 @@
 #include "io/file_writer.hpp"
 #include "io/spatial_reference.hpp"
 
+#include <thalweg/base/error.hpp>
+
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 
@@ -16,6 +18,11 @@
 namespace thalweg {
 
 namespace {
+
+bool is_folder(const std::string& path) {
+  VSIStatBufL status;
+  return VSIStatL(path.c_str(), &status) == 0 && VSI_ISDIR(status.st_mode) != 0;
+}
 
 void copy_out(const std::string& from, const std::string& to, const std::string& target) {
   vsi_l_offset size = 0;
@@ -40,12 +47,20 @@ MemoryFolder::~MemoryFolder() {
 }
 
 void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, Overwrite mode) const {
+  if (is_folder(path_)) {
+    throw Error(ErrorCode::Unsupported, target_ + ": the format makes a folder; choose one of files alone");
+  }
   copy_out(path_, written, target_);
   const CPLStringList names(VSIReadDir(folder_.c_str()));
   for (int i = 0; i < names.size(); ++i) {
     const std::string name = names[i];
     const std::string from = folder_ + "/" + name;
     if (from == path_ || name == "." || name == "..") continue;
+    if (is_folder(from)) {
+      throw Error(ErrorCode::Unsupported, target_ +
+                                              ": the format makes folders beside the file; choose one "
+                                              "of files alone");
+    }
     const std::string beside = std::filesystem::path(target_).replace_filename(name).string();
     if (mode == Overwrite::No && from.ends_with(".prj") && std::filesystem::is_regular_file(beside) &&
         means_same_crs(read_prj_sidecar(beside), read_prj_sidecar(from))) {

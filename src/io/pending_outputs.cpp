@@ -147,6 +147,10 @@ void PendingOutputs::check_new(const std::string& target) const {
 
 std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
   if (target.empty()) throw Error(ErrorCode::Usage, "the name of an output is empty; give a path");
+  if (target == "-") {
+    throw Error(ErrorCode::Usage,
+                "'-' is no file: only --report goes to stdout; give a path, or /dev/stdout");
+  }
   std::error_code ignored;
   const fs::file_status status = fs::status(target, ignored);
   if (fs::is_directory(status)) {

@@ -11,6 +11,7 @@
 #include "io/tin_format.hpp"
 
 #include <cpl_minixml.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -198,10 +199,44 @@ class LandXmlReader {
 
   void read_crs(CPLXMLNode* root) {
     CPLXMLNode* crs = CPLGetXMLNode(root, "CoordinateSystem");
-    if (crs == nullptr) return;
-    const std::string code = attribute(crs, "epsgCode");
-    tin_.crs = code.empty() ? attribute(crs, "ogcWktCode") : "EPSG:" + code;
+    const std::string code = crs == nullptr ? "" : attribute(crs, "epsgCode");
+    const std::string wkt = crs == nullptr ? "" : attribute(crs, "ogcWktCode");
+    tin_.crs = code.empty() ? wkt : "EPSG:" + code;
+    if (tin_.crs.empty()) read_units(CPLGetXMLNode(root, "Units"));
   }
+
+  // Without a CRS: one that knows the unit alone.
+  void read_units(CPLXMLNode* units) {
+    if (units == nullptr) return;
+    for (CPLXMLNode* system = units->psChild; system != nullptr; system = system->psNext) {
+      const std::string name = system->eType == CXT_Element ? attribute(system, "linearUnit") : "";
+      if (name.empty()) continue;
+      const auto unit = std::ranges::find(kUnits, name, &Unit::name);
+      if (unit == kUnits.end()) fail(ErrorCode::Unsupported, "has the unknown linearUnit '" + name + "'");
+      const std::string heights = attribute(system, "elevationUnit");
+      if (!heights.empty() && heights != unit->of_heights) {
+        fail(ErrorCode::Unsupported,
+             "has positions in the unit '" + name + "' and heights in '" + heights +
+                 "', but no CRS that tells it; export both in one unit, or with a CRS");
+      }
+      if (unit->metres == 1) return;
+      tin_.crs = "LOCAL_CS[\"unknown, in " + name + "\",UNIT[\"" + name + "\"," +
+                 fmt::format("{}", unit->metres) + "]]";
+    }
+  }
+
+  struct Unit {
+    std::string_view name, of_heights;
+    double metres;
+  };
+  static constexpr std::array<Unit, 8> kUnits = {{{"meter", "meter", 1},
+                                                  {"millimeter", "millimeter", 0.001},
+                                                  {"centimeter", "centimeter", 0.01},
+                                                  {"kilometer", "kilometer", 1000},
+                                                  {"foot", "feet", 0.3048},
+                                                  {"USSurveyFoot", "feet", 1200.0 / 3937},
+                                                  {"inch", "inch", 0.0254},
+                                                  {"mile", "miles", 1609.344}}};
 
   [[nodiscard]] std::pair<double, double> key(std::size_t v) const {
     return {tin_.points[v].x, tin_.points[v].y};

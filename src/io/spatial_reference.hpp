@@ -14,9 +14,6 @@ namespace thalweg {
 /// Throws: Error{BadCrs}. Pre: the definition is not empty.
 OGRSpatialReference parse_reference(const std::string& definition);
 
-/// Whether two definitions, of perhaps different dialects, mean the same CRS; false if one is not understood.
-bool means_same_crs(const std::string& a, const std::string& b);
-
 /// What a reference says; an empty one is the unknown CRS.
 /// Throws: Error{BadCrs} naming `origin`, if the CRS has no plane.
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin);

@@ -58,7 +58,7 @@ struct TinWriteJob {
 struct TinFormat {
   FormatInfo info;
   enum class Crs : std::uint8_t { InFile, InSidecar } crs;
-  enum class Numbers : std::uint8_t { Double, Single } numbers;
+  enum class Numbers : std::uint8_t { Double, Single, SingleYUp } numbers;  ///< y up: as glTF has it
   void (*write)(const TinWriteJob& job);
   /// True if a file whose first bytes are these is of this format.
   bool (*recognises)(std::string_view head, const std::string& path);
@@ -77,8 +77,8 @@ LocalOrigin read_origin(const std::string& path);
 /// The origin that keeps the most digits: zero if single precision holds every number, else the middle of the
 /// box.
 LocalOrigin choose_origin(std::span<const Point2> xy, std::span<const double> z);
-/// Writes the sidecar of an origin; none, and none left, for zero.
-void write_origin(const std::string& target, const TinView& view, const LocalOrigin& origin,
+/// Writes the sidecar of an origin; none, and none left, for zero. `y_is_up`: the file's z runs south.
+void write_origin(const std::string& target, const TinView& view, const LocalOrigin& origin, bool y_is_up,
                   PendingOutputs& pending, Overwrite mode);
 
 void write_ply(const TinWriteJob& job);

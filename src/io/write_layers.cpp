@@ -8,8 +8,8 @@
 // The date of last change in the file is fixed, so that equal input gives equal bytes.
 // One-layer formats are made in memory and copied out: a shapefile is several files, and the drivers of
 // FlatGeobuf and GeoJSON do not notice a full disk. GeoJSON is rounded to about 15 digits by its driver.
-// Longitudes on both sides of the antimeridian run on beyond 180 or below -180, whichever is narrower: a
-// triangle or line that jumped would be drawn around the whole earth.
+// Longitudes on both sides of the antimeridian run on beyond 180, as those of all other layers do: a triangle
+// or line that jumped would be drawn around the whole earth.
 // Triangles are polygons everywhere: OGR's type TIN is refused or lost by half of the drivers.
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
@@ -68,8 +68,8 @@ std::vector<Point2> turned_from(std::span<const Point2> xy, double west, double 
 }
 
 /// The positions in one turn of longitude, where they lie on both sides of the antimeridian (or of Greenwich,
-/// if longitudes run from 0); their middle is within half a turn of Greenwich. None: they can stay as they
-/// are.
+/// if longitudes run from 0), as MetricFrame has them: beyond 180, or from below 0 on. None: they can stay as
+/// they are.
 std::vector<Point2> across_antimeridian(std::span<const Point2> xy, double period) {
   const auto sides = [](std::span<const Point2> points) {
     const auto [west, east] = std::ranges::minmax(points, {}, &Point2::x);
@@ -80,8 +80,7 @@ std::vector<Point2> across_antimeridian(std::span<const Point2> xy, double perio
   if (east - west <= period / 2) return {};
   for (const double start : {0.0, -period / 2}) {
     const auto [low, high] = sides(turned_from(xy, start, period));
-    if (high - low < east - west)
-      return turned_from(xy, std::remainder((low + high) / 2, period) - period / 2, period);
+    if (high - low < east - west) return turned_from(xy, (low + high) / 2 - period / 2, period);
   }
   return {};
 }
@@ -133,7 +132,8 @@ class LayerWriter {
     if (wanted("edges")) write_edges();
     if (wanted("vertices")) write_vertices();
     if (wanted("breaklines")) write_breaklines();
-    if (wanted("conflicts")) write_conflicts();
+    // A TIN that was read does not know them, and none is not the same as unknown.
+    if (wanted("conflicts") && job_.view.conflicts) write_conflicts();
     if (format_.transactions == Transactions::One && dataset_->CommitTransaction() != OGRERR_NONE) fail();
     feature_.reset();
     dataset_.reset();
@@ -272,6 +272,7 @@ class LayerWriter {
   }
 
   void write_conflicts() {
+    const std::span<const Conflict> conflicts = *job_.view.conflicts;
     create_layer("conflicts", wkbPoint25D,
                  {{"kind", OFTString},
                   {"z_a", OFTReal},
@@ -280,8 +281,8 @@ class LayerWriter {
                   {"source_a", OFTString},
                   {"source_b", OFTString}});
     OGRPoint* const point = adopt(std::make_unique<OGRPoint>(0, 0, 0));
-    for (std::size_t row = 0; row < job_.view.conflicts.size(); ++row) {
-      const Conflict& conflict = job_.view.conflicts[row];
+    for (std::size_t row = 0; row < conflicts.size(); ++row) {
+      const Conflict& conflict = conflicts[row];
       point->setX(conflict.xy.x);
       point->setY(conflict.xy.y);
       point->setZ(conflict.z_used);
@@ -291,7 +292,7 @@ class LayerWriter {
       feature_->SetField(3, conflict.z_used);
       feature_->SetField(4, conflict.source_a.c_str());
       feature_->SetField(5, conflict.source_b.c_str());
-      create_feature(row, job_.view.conflicts.size());
+      create_feature(row, conflicts.size());
     }
   }
 

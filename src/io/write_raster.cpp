@@ -20,6 +20,8 @@ namespace thalweg {
 
 namespace {
 
+constexpr double kNodata = -9999;
+
 GDALDataType gdal_type(RasterType type) {
   switch (type) {
     case RasterType::Byte:
@@ -51,7 +53,7 @@ GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& vie
     dataset->SetSpatialRef(&reference);
   }
   GDALRasterBand& band = *dataset->GetRasterBand(1);
-  const double nodata = view.type == RasterType::Byte ? 0 : -9999;
+  const double nodata = view.type == RasterType::Byte ? 0 : kNodata;
   band.SetNoDataValue(nodata);
   band.SetDescription(view.description.c_str());
   std::vector<double> line(view.grid.columns);
@@ -63,6 +65,29 @@ GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& vie
       fail(path, session);
   }
   return dataset;
+}
+
+/// What the driver made, opened again: some write what nobody can read, or colours instead of heights.
+void check_readable(const std::string& made, const std::string& path, const RasterView& view,
+                    const GDALDriver& driver) {
+  const auto refuse = [&](const std::string& what) {
+    return Error(ErrorCode::Unsupported, path + ": the format " + driver.GetDescription() + " " + what +
+                                             "; choose another one, such as GTiff (.tif)");
+  };
+  const char* const only[] = {driver.GetDescription(), nullptr};
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER, only));
+  if (!dataset) throw refuse("makes no file that can be opened again");
+  GDALRasterBand* const band = dataset->GetRasterCount() == 1 ? dataset->GetRasterBand(1) : nullptr;
+  const bool keeps_values = band != nullptr && band->GetColorTable() == nullptr &&
+                            (view.type == RasterType::Byte || band->GetRasterDataType() != GDT_Byte);
+  if (!keeps_values) throw refuse("turns heights into colours");
+  int has_nodata = FALSE;
+  const double nodata = band->GetNoDataValue(&has_nodata);
+  const bool any_without =
+      std::any_of(view.values.begin(), view.values.end(), [](double v) { return std::isnan(v); });
+  if (any_without && view.type != RasterType::Byte && (has_nodata == FALSE || nodata != kNodata)) {
+    throw refuse("cannot tell the cells without data");
+  }
 }
 
 int report_progress(double fraction, const char*, void* progress) {
@@ -107,6 +132,7 @@ void write_raster(const std::string& path, const RasterView& view, const WriteOp
   if (!copy) fail(path, session);
   copy.reset();
   if (session.failed()) fail(path, session);
+  check_readable(folder.path(), path, view, *driver);
   folder.deliver(written, pending, mode);
   progress.advance(1);
 }

@@ -116,9 +116,9 @@ void write_tin(const std::string& path, const TinView& view, const WriteOptions&
   const std::string written = pending.add(path, mode);
   if (format.crs == TinFormat::Crs::InSidecar) write_sidecar(sidecar_path(path), view, pending, mode);
   LocalOrigin origin;
-  if (format.numbers == TinFormat::Numbers::Single) {
+  if (format.numbers != TinFormat::Numbers::Double) {
     origin = choose_origin(view.written_xy.empty() ? view.tin.points() : view.written_xy, view.tin.heights());
-    write_origin(path, view, origin, pending, mode);
+    write_origin(path, view, origin, format.numbers == TinFormat::Numbers::SingleYUp, pending, mode);
   }
   format.write({written, path, view, creation, origin, pending, mode, progress});
   progress.advance(1);

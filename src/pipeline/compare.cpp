@@ -7,6 +7,7 @@
 #include "pipeline/loaded_tin.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/crs.hpp>
 #include <thalweg/io/pending_outputs.hpp>
 #include <thalweg/io/picture.hpp>
 #include <thalweg/pipeline/inspect.hpp>
@@ -52,7 +53,7 @@ Tin renamed_after(const LoadedTin& before, const LoadedTin& after, const std::st
     throw differ(
         fmt::format("they have {} and {} vertices", before.tin.vertex_count(), after.tin.vertex_count()));
   }
-  if (before.crs.known && after.crs.known && before.crs.wkt != after.crs.wkt) {
+  if (before.crs.known && after.crs.known && !means_same_crs(before.crs.wkt, after.crs.wkt)) {
     throw differ("one is in " + before.crs.name + ", the other in " + after.crs.name);
   }
   const std::vector<std::size_t> old_order = sorted_vertices(before);

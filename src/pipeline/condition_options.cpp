@@ -49,6 +49,10 @@ ConditionConfig parse_condition(const CLI::App& command, const ConditionArgument
       throw Error(ErrorCode::Usage, option + " needs --condition; say what to change");
     }
   }
+  if (command.count("--condition-norm") > 0 && !config.makes_valleys_monotone()) {
+    throw Error(ErrorCode::Usage,
+                "--condition-norm is about monotone-valleys, which --condition does not ask for");
+  }
   config.norm = arguments.norm == "sum" ? ChangeNorm::Sum : ChangeNorm::Squares;
   if (command.count("--condition-max") > 0) config.max_m = arguments.max_m;
   for (const std::string& file : arguments.outlets) config.outlets.push_back(parse_source(file));

@@ -6,6 +6,7 @@
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/terrain/pits.hpp>
+#include <thalweg/terrain/surface_flow.hpp>
 
 #include <fmt/format.h>
 
@@ -79,6 +80,17 @@ std::vector<ConditionStep> parse_condition(const std::string& text) {
   return steps;
 }
 
+namespace {
+
+/// Interior pits, but those in which an outlet is.
+std::size_t count_pits(const Tin& tin, std::span<const VertexId> outlets, Progress& progress) {
+  if (outlets.empty()) return find_pits(tin).interior;
+  const SurfaceFlow flow(tin, outlets, progress);
+  return static_cast<std::size_t>(std::ranges::count(flow.sinks(), Sink::Kind::Pit, &Sink::kind));
+}
+
+}  // namespace
+
 ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<const VertexId> outlets,
                              const ConditionConfig& config, Progress& progress) {
   progress.start_phase("condition heights");
@@ -91,7 +103,7 @@ ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<c
             .filled = result.filled,
             .breached = result.breached,
             .left = result.left,
-            .pits_before = find_pits(tin).interior};
+            .pits_before = count_pits(tin, outlets, progress)};
   for (const HeightChange& change : result.changes) {
     const double size = std::abs(change.after - change.before) * metres_per_unit;
     report.sum_m += size;

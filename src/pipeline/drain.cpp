@@ -51,13 +51,18 @@ std::vector<VertexId> place_outlets(const LoadedTin& loaded, const TriangleGrid&
   return outlets;
 }
 
-/// Seeds as written, and in the plane.
-std::vector<std::pair<Point2, Point2>> list_seeds(const LoadedTin& loaded, const DrainConfig& config,
-                                                  Progress& progress) {
-  std::vector<std::pair<Point2, Point2>> seeds;
+/// Seeds as written, and in the plane; those that were given come first.
+struct Seeds {
+  std::vector<std::pair<Point2, Point2>> places;
+  std::size_t given = 0;
+};
+
+Seeds list_seeds(const LoadedTin& loaded, const DrainConfig& config, Progress& progress) {
+  Seeds seeds;
   for (const Point2 p : read_places(config.seeds, loaded.crs, progress)) {
-    seeds.emplace_back(p, loaded.plane.to_plane(p));
+    seeds.places.emplace_back(p, loaded.plane.to_plane(p));
   }
+  seeds.given = seeds.places.size();
   if (!config.seed_spacing_m) return seeds;
   const double spacing = *config.seed_spacing_m / loaded.plane.metres_per_unit();
   const Box2 box = bounding_box(loaded.tin.points());
@@ -70,7 +75,7 @@ std::vector<std::pair<Point2, Point2>> list_seeds(const LoadedTin& loaded, const
   for (double row = 0; row < rows; ++row) {
     for (double column = 0; column < columns; ++column) {
       const Point2 p{box.x_min + (column + 0.5) * spacing, box.y_min + (row + 0.5) * spacing};
-      seeds.emplace_back(loaded.plane.to_written(p), p);
+      seeds.places.emplace_back(loaded.plane.to_written(p), p);
     }
   }
   return seeds;
@@ -79,18 +84,22 @@ std::vector<std::pair<Point2, Point2>> list_seeds(const LoadedTin& loaded, const
 std::vector<SeededPath> follow_seeds(const LoadedTin& loaded, const SurfaceFlow& flow,
                                      const TriangleGrid& grid, const DrainConfig& config, DrainReport& report,
                                      Progress& progress) {
-  const auto seeds = list_seeds(loaded, config, progress);
+  const auto [places, given] = list_seeds(loaded, config, progress);
   std::vector<SeededPath> paths;
   progress.start_phase("follow paths");
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (i % 256 == 0) progress.advance(static_cast<double>(i) / static_cast<double>(seeds.size()));
-    if (const auto t = grid.find(seeds[i].second)) {
-      paths.push_back({seeds[i].first, flow.path_from(*t, seeds[i].second)});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i % 256 == 0) progress.advance(static_cast<double>(i) / static_cast<double>(places.size()));
+    const auto& [written, p] = places[i];
+    if (const auto t = grid.find(p)) {
+      paths.push_back({written, flow.path_from(*t, p)});
+    } else if (i < given) {  // a lattice over the box of a TIN leaves it at every bay
+      ++report.seeds_outside;
     }
   }
   report.flow_paths = paths.size();
-  // A lattice over the box of a TIN leaves it at every bay; only points that were given are worth a word.
-  if (!config.seed_spacing_m) report.seeds_outside = seeds.size() - paths.size();
+  if (report.seeds_outside > 0) {
+    report.notes.push_back(fmt::format("{} seeds are outside of the TIN", report.seeds_outside));
+  }
   progress.advance(1);
   return paths;
 }
@@ -120,9 +129,6 @@ void describe(const LoadedTin& loaded, const SurfaceFlow& flow, const PitTable& 
     report.notes.emplace_back("several outlets lie at the same vertex: they are one");
   if (!loaded.crs.known) {
     report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
-  }
-  if (report.seeds_outside > 0) {
-    report.notes.push_back(fmt::format("{} seeds are outside of the TIN", report.seeds_outside));
   }
 }
 
@@ -249,7 +255,7 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   if (report.conditioned) layers.push_back(changed_heights(loaded, changes, report));
   write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
   if (!config.mesh_path.empty()) {
-    write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets}, config, outputs, progress);
+    write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets, catchments}, config, outputs, progress);
   }
   if (!config.swmm_path.empty()) {
     write_model(loaded, {flow, table, spilling, network, outlets}, config, report, outputs, progress);

@@ -38,13 +38,44 @@ struct Attributes {
   std::vector<TinAttribute> vertex, edge;
 };
 
+/// By vertex: the number of its catchment, or no value.
+std::vector<double> catchments_of_vertices(const Tin& tin, const FlowView& view) {
+  std::vector<double> number(tin.vertex_count(), kNoValue);
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    const SinkId sink = view.flow.sink_of(VertexId{v});
+    if (sink.valid()) number[v] = view.end_of_sink[sink.index()];
+  }
+  // By vertex on a border: the first catchment there, and whether its own is one of them.
+  std::vector<double> beside(number.size(), kNoValue);
+  std::vector<std::uint8_t> is_there(number.size(), 0);
+  const auto look_at = [&](std::uint32_t group, const CatchmentRing& ring) {
+    for (const FlowPoint& p : ring) {
+      if (!p.vertex.valid()) continue;
+      const std::size_t v = p.vertex.index();
+      if (std::isnan(beside[v])) beside[v] = group;
+      if (number[v] == group) is_there[v] = 1;
+    }
+  };
+  for (const Catchment& catchment : view.catchments) {
+    for (const CatchmentPolygon& polygon : catchment.polygons) {
+      look_at(catchment.group, polygon.outer);
+      for (const CatchmentRing& hole : polygon.holes) look_at(catchment.group, hole);
+    }
+  }
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (is_there[v] == 0 && !std::isnan(beside[v])) number[v] = beside[v];
+  }
+  return number;
+}
+
 Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progress& progress) {
   const Tin& tin = loaded.tin;
   const double metres = loaded.plane.metres_per_unit(), square = metres * metres;
   const std::size_t vertices = tin.vertex_count(), edges = tin.edge_count();
   Attributes found;
   found.vertex = {
-      {"catchment", "number of the catchment, as in the layer catchments of thalweg drain", "1", {}},
+      {"catchment", "number of the catchment, as in the layer catchments of thalweg drain", "1",
+       catchments_of_vertices(tin, view)},
       {"fill_depth", "depth of water if all pits were full", "m", {}},
       {"upstream_area", "area upstream of the channels that end here", "m2", std::vector(vertices, 0.0)}};
   found.edge = {
@@ -54,8 +85,6 @@ Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progre
   const ConditionOptions fill{.steps = {ConditionStep::Fill}, .norm = ChangeNorm::Sum, .max_change = {}};
   const std::vector<double> full = condition_heights(tin, view.outlets, fill, progress).heights;
   for (std::size_t v = 0; v < vertices; ++v) {
-    const SinkId sink = view.flow.sink_of(VertexId{v});
-    found.vertex[0].values.push_back(sink.valid() ? view.end_of_sink[sink.index()] : kNoValue);
     found.vertex[1].values.push_back((full[v] - tin.heights()[v]) * loaded.plane.vertical_metres_per_unit());
   }
   const std::vector<std::uint32_t> number = number_edges(tin);

@@ -18,6 +18,21 @@ void add_lines(const std::vector<std::string>& files, EdgeKind kind, std::vector
   for (const std::string& file : files) lines.push_back({parse_source(file), kind});
 }
 
+std::vector<unsigned> parse_classes(const std::vector<std::string>& lists) {
+  constexpr unsigned kMost = 255;
+  std::vector<unsigned> classes;
+  for (const std::string& list : lists) {
+    for (const std::string& word : CLI::detail::split(list, ',')) {
+      unsigned value = 0;
+      if (!CLI::detail::lexical_cast(word, value) || value > kMost) {
+        throw CLI::ValidationError("--classes", "takes numbers from 0 to 255, as 2,9, not '" + list + "'");
+      }
+      classes.push_back(value);
+    }
+  }
+  return classes;
+}
+
 }  // namespace
 
 CLI::Validator positive_number() {
@@ -85,11 +100,14 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
       command.add_option("--heights-above", read.heights_above, "what heights are above before --geoid"),
       {{"ellipsoid", HeightsAbove::Ellipsoid}, {"geoid", HeightsAbove::Geoid}})
       ->default_str("ellipsoid");
-  command.add_option("--classes", read.classes, "LAS: classes that are points, as 2,9 (2 is ground)")
-      ->delimiter(',')
-      ->expected(1, 256)
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--classes",
+          [&read](const std::vector<std::string>& lists) { read.classes = parse_classes(lists); },
+          "LAS: classes that are points, as 2,9 (2 is ground); repeatable")
+      ->expected(1)
       ->allow_extra_args(false)
-      ->check(CLI::Range(0, 255));
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   take_one_of<LasReturns>(
       command.add_option("--returns", read.returns, "LAS: all, first, last returns of a pulse"),
       {{"all", LasReturns::All}, {"first", LasReturns::First}, {"last", LasReturns::Last}})

@@ -391,7 +391,9 @@ void write_tin_of(const BuiltTin& built, const OutputConfig& output, PendingOutp
                      .is_pit = built.is_pit,
                      .vertex_source = built.vertex_source,
                      .triangle_orders = built.orders,
-                     .conflicts = built.report.conflicts};
+                     .conflicts = built.report.command == "build"
+                                      ? std::optional<std::span<const Conflict>>(built.report.conflicts)
+                                      : std::nullopt};
   write_tin(output.path, view, {.format = output.format, .creation_options = output.creation_options},
             pending, output.overwrite ? Overwrite::Yes : Overwrite::No, progress);
 }

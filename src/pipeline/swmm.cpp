@@ -40,16 +40,26 @@ struct Ground {
   std::size_t node = kNoNode;
   double area_m2 = 0;
   std::vector<std::pair<double, double>> slopes;  // and areas, of triangles whose lowest corner drains here
-  std::vector<Point2> ring;                       // of its largest part, as written
+  std::vector<std::vector<Point2>> rings;         // of all its parts and their holes, as written
 };
 
-double doubled_area(const std::vector<Point2>& ring) {
-  double sum = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point2 a = ring[i], b = ring[(i + 1) % ring.size()], o = ring.front();
-    sum += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
+/// SWMM knows polygons of one ring: parts and holes hang on the first one by cuts, there and back, so its
+/// area is theirs.
+std::vector<Point2> joined(const std::vector<std::vector<Point2>>& rings) {
+  std::vector<Point2> all;
+  for (const std::vector<Point2>& ring : rings) {
+    if (all.empty()) {
+      all = ring;
+    } else if (!ring.empty()) {
+      const Point2 start = ring.front();
+      const auto nearest = std::ranges::min_element(
+          all, {}, [&](Point2 p) { return std::hypot(p.x - start.x, p.y - start.y); });
+      std::vector<Point2> detour(ring.begin(), ring.end());
+      detour.insert(detour.end(), {start, *nearest});
+      all.insert(nearest + 1, detour.begin(), detour.end());
+    }
   }
-  return sum;
+  return all;
 }
 
 /// Area in square metres, and slope.
@@ -112,10 +122,10 @@ std::vector<Ground> find_grounds(const LoadedTin& loaded, const SwmmNetwork& net
   const double square = scale.horizontal_metres_per_unit * scale.horizontal_metres_per_unit;
   for (std::size_t s = 0; s < ground.size(); ++s) ground[group[s]].area_m2 += flow.sinks()[s].area * square;
   for (const Catchment& catchment : outline_catchments(flow, group, progress)) {
-    std::vector<Point2>& ring = ground[catchment.group].ring;
+    std::vector<std::vector<Point2>>& rings = ground[catchment.group].rings;
     for (const CatchmentPolygon& polygon : catchment.polygons) {
-      std::vector<Point2> outer = ring_of(loaded, polygon.outer).xy;
-      if (doubled_area(outer) > doubled_area(ring)) ring = std::move(outer);
+      rings.push_back(ring_of(loaded, polygon.outer).xy);
+      for (const CatchmentRing& hole : polygon.holes) rings.push_back(ring_of(loaded, hole).xy);
     }
   }
   for (const Triangle& t : tin.triangles()) {
@@ -241,7 +251,7 @@ class Writer {
     }
     section("POLYGONS", "subcatchment x y");
     for (const Ground& g : grounds_) {
-      for (const Point2 p : g.ring) line("S{} {} {}", name(g.node), p.x, p.y);
+      for (const Point2 p : joined(g.rings)) line("S{} {} {}", name(g.node), p.x, p.y);
     }
   }
 

@@ -5,7 +5,7 @@
 //    comes to that channel's upper end, the channel is no link of its own.
 //    Nor does what comes to a channel's upper end always go along it: then the channel begins at a node of
 //    its own.
-// 2. Pits at which links end spill along a link of their own.
+// 2. Pits at which links end spill along a link of their own; over the rim, to an outfall of its own.
 // 3. Vertices with one link in and one out are inside of a conduit, all others are nodes.
 #include "pipeline/swmm_network.hpp"
 
@@ -23,7 +23,8 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffU;
 
 struct Link {
-  VertexId from, to;  // `to` is invalid where water leaves over the rim between vertices
+  VertexId from,
+      to;  // `to` is invalid where water leaves over the rim between vertices, or a pit spills there
   std::vector<FlowPoint> points;
   HalfedgeId channel;   // invalid: across triangles, or over a spill
   double offset_m = 0;  // of the beginning above its node
@@ -41,7 +42,8 @@ class Tracer {
         vertical_metres_(loaded.plane.vertical_metres_per_unit()),
         out_(tin_.vertex_count(), kNone),
         in_(tin_.vertex_count(), 0),
-        node_of_(tin_.vertex_count(), kNone) {}
+        node_of_(tin_.vertex_count(), kNone),
+        on_rim_(tin_.rim_vertices()) {}
 
   SwmmNetwork run() {
     list_links();
@@ -124,11 +126,15 @@ class Tracer {
       pit_at_[pit.vertex.index()] = p;
       const VertexId overflow = view_.spilling.overflow[pit.sink.index()];
       if (!overflow.valid()) continue;
-      Link link{pit.vertex, settled(overflow), {point_of(pit.vertex), point_of(pit.spill_vertex)}, {}};
+      const bool leaves = on_rim_[overflow.index()];
+      Link link{pit.vertex,
+                leaves ? VertexId{} : settled(overflow),
+                {point_of(pit.vertex), point_of(pit.spill_vertex)},
+                {}};
       if (overflow != pit.spill_vertex) link.points.push_back(point_of(overflow));
       link.offset_m = (pit.spill_height - pit.height) * vertical_metres_;
       link.spill = true;
-      ++in_[link.to.index()];
+      if (!leaves) ++in_[link.to.index()];
       out_[pit.vertex.index()] = static_cast<std::uint32_t>(links_.size());
       links_.push_back(std::move(link));
     }
@@ -228,6 +234,7 @@ class Tracer {
   std::vector<std::uint32_t> in_;      // by vertex: how many links end there
   std::vector<std::uint32_t> pit_at_;  // by vertex: the pit of which it is the node
   std::vector<std::uint32_t> node_of_;
+  std::vector<bool> on_rim_;  // by vertex: what spills there leaves
   SwmmNetwork network_;
 };
 

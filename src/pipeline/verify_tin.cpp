@@ -90,6 +90,8 @@ void read_source_claims(const Json& report, const Plane& plane, verify::Sources&
   for (const Json& c : report.value("conflicts", Json::array())) {
     Conflict conflict;
     conflict.xy = plane.to_plane(Point2{c.at("x").get<double>(), c.at("y").get<double>()});
+    conflict.z_a = c.at("z_a").get<double>();
+    conflict.z_b = c.at("z_b").get<double>();
     conflict.z_used = c.at("z_used").get<double>();
     sources.conflicts->push_back(conflict);
   }

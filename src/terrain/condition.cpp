@@ -1,10 +1,10 @@
 // Conditioning: valleys, then pits.
 //
-// Valleys. Isotonic regression only where arcs are broken: the ends of broken arcs that touch are a pool; a
-// pool is solved with the arcs between its own vertices; a pool that then breaks an arc to a vertex outside
-// takes in what is near until it has twice its size, and is solved again. What comes out obeys all arcs and
-// is best for fewer of them, so it is best for all. Where a pool of changed vertices needs more than the
-// largest change it gets its heights back.
+// Valleys. The vertices of a lake change together. Isotonic regression only where arcs are broken: the ends
+// of broken arcs that touch are a pool; a pool is solved with the arcs between its own vertices; a pool that
+// then breaks an arc to a vertex outside takes in what is near until it has twice its size, and is solved
+// again. What comes out obeys all arcs and is best for fewer of them, so it is best for all. Where a pool of
+// changed vertices needs more than the largest change it gets its heights back.
 #include "base/release.hpp"
 #include "terrain/isotonic.hpp"
 #include "terrain/pit_removal.hpp"
@@ -34,6 +34,62 @@ std::vector<DownArc> list_arcs(const Tin& tin, const Wanted& is_wanted) {
   }
   return arcs;
 }
+
+/// Arcs both ways between the vertices of each lake, so that its water stays level. A lake is what level
+/// triangles cover between edges of one.
+class LakeTies {
+ public:
+  explicit LakeTies(const Tin& tin) : tin_(tin), visited_(tin.triangle_count(), 0) {}
+
+  std::vector<DownArc> run() {
+    for (std::size_t i = 0; i < tin_.halfedge_count(); ++i) {
+      const HalfedgeId h{i};
+      if (has(tin_.kind(h), EdgeKind::Lake) && is_new(Tin::triangle_of(h)) && flood(Tin::triangle_of(h)))
+        tie();
+    }
+    return std::move(ties_);
+  }
+
+ private:
+  [[nodiscard]] bool is_level(TriangleId t) const {
+    const auto [a, b, c] = tin_.triangle(t);
+    return tin_.height(a) == tin_.height(b) && tin_.height(b) == tin_.height(c);
+  }
+  [[nodiscard]] bool is_new(TriangleId t) {
+    return is_level(t) && std::exchange(visited_[t.index()], 1) == 0;
+  }
+
+  /// False if edges of lakes, and the rim, do not close what is level.
+  bool flood(TriangleId start) {
+    bool closed = true;
+    lake_.assign(1, start);
+    for (std::size_t i = 0; i < lake_.size(); ++i) {
+      for (std::size_t side = 0; side < 3; ++side) {
+        const HalfedgeId h = Tin::halfedge(lake_[i], side);
+        if (tin_.on_rim(h) || has(tin_.kind(h), EdgeKind::Lake)) continue;
+        const TriangleId beyond = Tin::triangle_of(tin_.twin(h));
+        closed = closed && is_level(beyond);
+        if (is_new(beyond)) lake_.push_back(beyond);
+      }
+    }
+    return closed;
+  }
+
+  void tie() {
+    const std::uint32_t one = tin_.triangle(lake_.front())[0].value();
+    for (const TriangleId t : lake_) {
+      for (const VertexId v : tin_.triangle(t)) {
+        ties_.push_back({one, v.value()});
+        ties_.push_back({v.value(), one});
+      }
+    }
+  }
+
+  const Tin& tin_;
+  std::vector<std::uint8_t> visited_;  // by triangle
+  std::vector<TriangleId> lake_;
+  std::vector<DownArc> ties_;
+};
 
 class ValleyRegression {
  public:
@@ -213,7 +269,9 @@ ConditionResult condition_along(const Tin& tin, std::span<const VertexId> outlet
   const double max_change = options.max_change.value_or(std::numeric_limits<double>::infinity());
   ConditionResult result;
   std::vector<std::uint8_t> touched(tin.vertex_count(), 0);
-  result.heights = ValleyRegression(tin.heights(), arcs, options.norm).run(max_change, progress);
+  std::vector<DownArc> with_ties = arcs.empty() ? std::vector<DownArc>() : LakeTies(tin).run();
+  with_ties.insert(with_ties.end(), arcs.begin(), arcs.end());
+  result.heights = ValleyRegression(tin.heights(), with_ties, options.norm).run(max_change, progress);
   if (asked(options, ConditionStep::Fill) || asked(options, ConditionStep::Breach)) {
     PitRemoval removal = remove_pits_best(tin.with_heights(std::move(result.heights)), outlets,
                                           {.fill = asked(options, ConditionStep::Fill),

@@ -1,4 +1,4 @@
-// Isotonic regression by splitting blocks, exact on any graph without cycles.
+// Isotonic regression by splitting blocks, exact on any directed graph.
 //
 // 1. A block that may take one value from a range: ask which vertices want to be above the range's middle.
 //    Squares: the middle is the block's mean, the weight of a vertex is its value less the mean. Sum: the
@@ -6,7 +6,7 @@
 //    below.
 // 2. The heaviest set that holds with each vertex all that is above it (a closure) goes up, the rest goes
 //    down; a block without such a set keeps its mean. Each closure is a minimum cut (Dinic).
-// 3. Means of blocks that were split by rounding alone may cross by an ulp: one pass downstream lowers them.
+// 3. Means of blocks that were split by rounding alone may cross by an ulp: what is below is lowered.
 //
 // Based on: Maxwell, Muckstadt, "Establishing consistent and realistic reorder intervals", 1985 (splitting at
 // the mean); Stout, "Isotonic regression via partitioning", 2013, section 3 (splitting between two values);
@@ -213,19 +213,16 @@ class Regression {
 
 void run_downstream(std::span<double> values, std::span<const DownArc> arcs) {
   std::vector<std::vector<std::uint32_t>> below(values.size());
-  std::vector<std::uint32_t> open(values.size(), 0), ready;
-  for (const DownArc& arc : arcs) {
-    below[arc.above].push_back(arc.below);
-    ++open[arc.below];
-  }
-  for (std::uint32_t v = 0; v < values.size(); ++v) {
-    if (open[v] == 0) ready.push_back(v);
-  }
-  for (std::size_t i = 0; i < ready.size(); ++i) {
-    for (const std::uint32_t next : below[ready[i]]) {
-      values[next] = std::min(values[next], values[ready[i]]);
-      if (--open[next] == 0) ready.push_back(next);
-    }
+  std::vector<std::uint32_t> lowered;
+  const auto lower = [&](std::uint32_t above, std::uint32_t v) {
+    if (!(values[above] < values[v])) return;
+    values[v] = values[above];
+    lowered.push_back(v);
+  };
+  for (const DownArc& arc : arcs) below[arc.above].push_back(arc.below);
+  for (const DownArc& arc : arcs) lower(arc.above, arc.below);
+  for (std::size_t i = 0; i < lowered.size(); ++i) {
+    for (const std::uint32_t next : below[lowered[i]]) lower(lowered[i], next);
   }
 }
 

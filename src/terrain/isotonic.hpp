@@ -1,6 +1,6 @@
 #pragma once
 
-/// Isotonic regression on a directed graph without cycles.
+/// Isotonic regression on a directed graph.
 
 #include <thalweg/terrain/condition.hpp>
 
@@ -17,8 +17,8 @@ struct DownArc {
 };
 
 /// The values that obey all arcs and differ least from `values`; the arcs hold exactly. Sum: each result is
-/// one of `values`. Pre: finite values, arcs without a cycle. Complexity: a max-flow over what is left of a
-/// block, for each of its splits.
+/// one of `values`. On a cycle of arcs all are equal. Pre: finite values. Complexity: a max-flow over what is
+/// left of a block, for each of its splits.
 std::vector<double> regress_isotonic(std::span<const double> values, std::span<const DownArc> arcs,
                                      ChangeNorm norm);
 

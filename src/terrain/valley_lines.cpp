@@ -1,6 +1,9 @@
 // Which way drawn valleys run.
 //
-// 1. Neighbours along drawn valleys, then a walk from each vertex where there are not two of them.
+// 1. Neighbours along drawn valleys, then a walk from each vertex where there are not two of them. A walk
+// that
+//    comes back to where it began is a ring: cut in two at its highest or its lowest vertex, whichever takes
+//    less change. So is what is left then, rings by themselves.
 // 2. What it takes to make a line fall: the least sum of changes of a prefix, vertex by vertex. The cost as a
 //    function of the last height is convex and piecewise linear with slopes that are whole numbers; a heap
 //    holds where they change. Both ways give what it takes to fall from both ends to a vertex inside.
@@ -15,6 +18,7 @@
 #include "terrain/valley_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <queue>
@@ -91,8 +95,49 @@ Course measure(const Tin& tin, Line line) {
   return course;
 }
 
+using Neighbours = std::vector<std::vector<VertexId>>;  // by vertex
+
+/// From a vertex on along the valley, until that ends, meets another one, or is back.
+Line walk(const Neighbours& neighbours, VertexId from, VertexId first) {
+  Line line = {from, first};
+  while (line.back() != from && neighbours[line.back().index()].size() == 2) {
+    const std::vector<VertexId>& on = neighbours[line.back().index()];
+    line.push_back(on[0] == line[line.size() - 2] ? on[1] : on[0]);
+  }
+  return line;
+}
+
+/// Both ways around a ring, from where it is closed to its place `at`.
+std::array<Line, 2> cut_ring(const Line& ring, std::ptrdiff_t at) {
+  return {Line(ring.begin(), ring.begin() + at + 1), Line(ring.rbegin(), ring.rend() - at)};
+}
+
+VertexId highest_on_ring(const Tin& tin, const Neighbours& neighbours, VertexId v) {
+  const Line ring = walk(neighbours, v, neighbours[v.index()][0]);
+  return *std::max_element(ring.begin(), ring.end(),
+                           [&](VertexId a, VertexId b) { return rank_of(tin, a) < rank_of(tin, b); });
+}
+
+/// A ring that is closed where it hangs on other lines, or anywhere: as two lines between that vertex and
+/// another one.
+void add_ring(const Tin& tin, const Line& ring, std::vector<Course>& courses) {
+  const auto by_rank = [&](VertexId v, VertexId w) { return rank_of(tin, v) < rank_of(tin, w); };
+  const auto [lowest, highest] = std::minmax_element(ring.begin() + 1, ring.end() - 1, by_rank);
+  const std::array<Line, 2> to_lowest = cut_ring(ring, lowest - ring.begin());
+  const std::array<Line, 2> to_highest = cut_ring(ring, highest - ring.begin());
+  std::array<Course, 2> down, up;
+  for (std::size_t i = 0; i < 2; ++i) {
+    down[i] = measure(tin, to_lowest[i]);
+    up[i] = measure(tin, to_highest[i]);
+  }
+  const double here = tin.height(ring.front());
+  const bool less_down = down[0].to_back + down[1].to_back < up[0].to_front + up[1].to_front;
+  const bool runs_down = tin.height(*lowest) < here && (less_down || tin.height(*highest) <= here);
+  for (Course& course : runs_down ? down : up) courses.push_back(std::move(course));
+}
+
 std::vector<Course> list_courses(const Tin& tin, std::vector<std::uint8_t>& on_valley) {
-  std::vector<std::vector<VertexId>> neighbours(tin.vertex_count());
+  Neighbours neighbours(tin.vertex_count());
   for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
     const HalfedgeId h{i};
     if (!tin.represents_edge(h) || !has(tin.kind(h), EdgeKind::Valley)) continue;
@@ -102,17 +147,22 @@ std::vector<Course> list_courses(const Tin& tin, std::vector<std::uint8_t>& on_v
     on_valley[a.index()] = on_valley[b.index()] = 1;
   }
   std::vector<Course> courses;
-  for (std::size_t i = 0; i < neighbours.size(); ++i) {
-    if (neighbours[i].empty() || neighbours[i].size() == 2) continue;
-    for (const VertexId first : neighbours[i]) {
-      Line line = {VertexId{i}, first};
-      while (neighbours[line.back().index()].size() == 2) {
-        const std::vector<VertexId>& on = neighbours[line.back().index()];
-        line.push_back(on[0] == line[line.size() - 2] ? on[1] : on[0]);
-      }
-      // Else it is seen from the other end.
-      if (line.front() < line.back()) courses.push_back(measure(tin, std::move(line)));
+  std::vector<std::uint8_t> passed(tin.vertex_count(), 0);
+  const auto add_from = [&](VertexId v) {
+    for (const VertexId first : neighbours[v.index()]) {
+      Line line = walk(neighbours, v, first);
+      for (const VertexId on : line) passed[on.index()] = 1;
+      // Each line is seen from both ends, a ring both ways around.
+      const bool ring = line.front() == line.back();
+      if (ring && line[1] < line[line.size() - 2]) add_ring(tin, line, courses);
+      if (!ring && line.front() < line.back()) courses.push_back(measure(tin, std::move(line)));
     }
+  };
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (!neighbours[i].empty() && neighbours[i].size() != 2) add_from(VertexId{i});
+  }
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (neighbours[i].size() == 2 && passed[i] == 0) add_from(highest_on_ring(tin, neighbours, VertexId{i}));
   }
   return courses;
 }

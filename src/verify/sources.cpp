@@ -1,6 +1,8 @@
 // Looking up what was given.
 //
-// 1. Positions of vertices are sorted; with a snap distance the nearest vertex within it is taken.
+// 1. Positions of vertices are sorted. With a snap distance points are merged by the rule first, and a vertex
+// of
+//    a line is where the nearest of the points that are left is, else the nearest vertex within it.
 // 2. A piece of a line, from a to b, is covered by a constraint edge of its kind where that edge, cut to the
 //    strip across the piece, stays within reach. The intervals have to leave no gap. A gap whose middle is on
 //    a triangle is a fault; one off the surface is where the surface was cut.
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -49,6 +52,58 @@ struct Interval {
   double from, to;
 };
 
+/// Where points are once those within a distance are one: in order of (x, y) each goes to the first within
+/// reach of those that have stayed where they were, or stays.
+class PlainMerge {
+ public:
+  PlainMerge(std::span<const Point2> points, double snap) : snap_(snap) {
+    std::vector<Point2> sorted(points.begin(), points.end());
+    std::sort(sorted.begin(), sorted.end());
+    for (const Point2 p : sorted) {
+      if (!first_within(p)) kept_.push_back(p);
+    }
+  }
+
+  /// Pre: one of the points.
+  [[nodiscard]] Point2 place_of(Point2 p) const {
+    return std::binary_search(kept_.begin(), kept_.end(), p) ? p : first_within(p).value();
+  }
+  /// Of the points that stayed the nearest within reach.
+  [[nodiscard]] std::optional<Point2> nearest(Point2 p) const {
+    std::optional<Point2> best;
+    visit(p, [&](Point2 q) {
+      if (!best || square(p, q) < square(p, *best)) best = q;
+      return false;
+    });
+    return best;
+  }
+
+ private:
+  static double square(Point2 p, Point2 q) { return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y); }
+
+  [[nodiscard]] std::optional<Point2> first_within(Point2 p) const {
+    std::optional<Point2> first;
+    visit(p, [&](Point2 q) {
+      first = q;
+      return true;
+    });
+    return first;
+  }
+
+  /// Calls `stop(q)` for those within reach of p, in order, until that is true.
+  template <class Stop>
+  void visit(Point2 p, const Stop& stop) const {
+    constexpr double kLowest = -std::numeric_limits<double>::infinity();
+    const auto from = std::lower_bound(kept_.begin(), kept_.end(), Point2{p.x - snap_, kLowest});
+    for (auto q = from; q != kept_.end() && q->x <= p.x + snap_; ++q) {
+      if (square(p, *q) <= snap_ * snap_ && stop(*q)) return;
+    }
+  }
+
+  double snap_;
+  std::vector<Point2> kept_;  // sorted
+};
+
 /// Heights that sources say of one vertex.
 struct Said {
   std::vector<double> points;
@@ -66,6 +121,7 @@ class SourceChecker {
         edges_(box_, subject.points.size(), 2),
         triangles_(box_, subject.points.size(), 2),
         lakes_(sources.lines, sources.snap + sources.pixel + sources.bend),
+        merge_(sources.snap > 0 ? sources.points : std::span<const Point2>(), sources.snap),
         said_(subject.points.size()) {
     for (Index v = 0; v < subject.points.size(); ++v) {
       const Point2 p = subject.points[v];
@@ -109,7 +165,13 @@ class SourceChecker {
   }
   static std::string text(Point2 p) { return fmt::format("({}, {})", p.x, p.y); }
 
-  [[nodiscard]] std::optional<Index> vertex_at(Point2 p) const { return vertex_near(p, sources_.snap); }
+  /// The vertex of a line's vertex.
+  [[nodiscard]] std::optional<Index> vertex_on_line(Point2 p) const {
+    if (const auto point = merge_.nearest(p)) {
+      if (const auto found = at_.find(*point); found != at_.end()) return found->second;
+    }
+    return vertex_near(p, sources_.snap + sources_.pixel);
+  }
 
   /// The vertex at a position, or the nearest one within the distance.
   [[nodiscard]] std::optional<Index> vertex_near(Point2 p, double distance_limit) const {
@@ -166,10 +228,10 @@ class SourceChecker {
     std::set<Index> met;
     for (std::size_t i = 0; i < sources_.points.size(); ++i) {
       if (i % kStep == 0) progress_.check();
-      const Point2 p = sources_.points[i];
-      if (const auto v = vertex_at(p)) {
-        said_[*v].points.push_back(sources_.heights[i]);
-        merged += met.insert(*v).second ? 0 : 1;
+      const Point2 p = sources_.snap > 0 ? merge_.place_of(sources_.points[i]) : sources_.points[i];
+      if (const auto v = at_.find(p); v != at_.end()) {
+        said_[v->second].points.push_back(sources_.heights[i]);
+        merged += met.insert(v->second).second ? 0 : 1;
       } else if (const auto height = height_at(p)) {
         const double error = std::abs(*height - sources_.heights[i]);
         const bool levelled = sources_.largest_error && lakes_.hold(p);
@@ -208,7 +270,7 @@ class SourceChecker {
       for (std::size_t i = 0; i < line.xy.size(); ++i) {
         if (!is_given(line, i)) continue;
         ++count;
-        const auto v = vertex_near(line.xy[i], sources_.snap + sources_.pixel);
+        const auto v = vertex_on_line(line.xy[i]);
         if (v && !line.z.empty()) said_[*v].lines.push_back({line.z[i], line.z[i]});
         if (!v && (on_surface(line.xy[i]) || !sources_.is_cut)) {
           faults.add(fmt::format("{} at {}", line.name, text(line.xy[i])));
@@ -314,7 +376,18 @@ class SourceChecker {
                           fmt::format("{} pieces, {} of them partly off the surface", pieces, off_surface));
   }
 
-  [[nodiscard]] std::string height_fault(Index v, const std::map<Index, std::set<double>>& used) const {
+  using Conflicts = std::map<Index, std::vector<const Conflict*>>;
+
+  /// Whether the report says that of the height `said` and another one the vertex got `z`.
+  [[nodiscard]] static bool explained(const Conflicts& conflicts, Index v, double said, double z) {
+    const auto at = conflicts.find(v);
+    return at != conflicts.end() &&
+           std::any_of(at->second.begin(), at->second.end(), [&](const Conflict* conflict) {
+             return conflict->z_used == z && (conflict->z_a == said || conflict->z_b == said);
+           });
+  }
+
+  [[nodiscard]] std::string height_fault(Index v, const Conflicts& conflicts) const {
     const Said& said = said_[v];
     const auto changed = conditioned_.find(v);
     if (changed != conditioned_.end() && changed->second->after != subject_.heights[v]) {
@@ -333,22 +406,29 @@ class SourceChecker {
       most = std::max(most, height.to);
     }
     const std::string where = fmt::format("vertex {} at {} has height {}", v, text(subject_.points[v]), z);
-    if ((z < least || z > most) && !lakes_.hold(subject_.points[v]))
+    const bool beyond = z < least || z > most;
+    const bool all_explained = std::all_of(heights.begin(), heights.end(), [&](const Interval& height) {
+      return height.from == height.to && explained(conflicts, v, height.from, z);
+    });
+    if (beyond && !all_explained && !lakes_.hold(subject_.points[v]))
       return where + fmt::format(", sources say {} to {}", least, most);
     if (!sources_.conflicts) return {};
     const auto disagrees = [&](double height) { return height != z; };
     if (std::none_of(said.points.begin(), said.points.end(), disagrees)) return {};
-    const auto named = used.find(v);
-    if (named != used.end() && named->second.contains(z)) return {};
+    const auto named = conflicts.find(v);
+    const auto uses_z = [&](const Conflict* conflict) { return conflict->z_used == z; };
+    if (named != conflicts.end() && std::any_of(named->second.begin(), named->second.end(), uses_z))
+      return {};
     return where + ", a source another one, and the report names no conflict there";
   }
 
   Finding check_heights() {
     constexpr double kMicrometre = 1e-6;
-    std::map<Index, std::set<double>> used;
-    for (const Conflict& conflict : sources_.conflicts.value_or(std::vector<Conflict>())) {
+    Conflicts conflicts;
+    for (std::size_t i = 0; sources_.conflicts && i < sources_.conflicts->size(); ++i) {
+      const Conflict& conflict = (*sources_.conflicts)[i];
       const auto v = vertex_near(conflict.xy, std::max(kMicrometre, sources_.snap + sources_.pixel));
-      if (v) used[*v].insert(conflict.z_used);
+      if (v) conflicts[*v].push_back(&conflict);
     }
     for (const Sources::Conditioned& change : sources_.conditioned) {
       if (const auto v = vertex_near(change.xy, kMicrometre)) conditioned_[*v] = &change;
@@ -358,7 +438,7 @@ class SourceChecker {
     for (Index v = 0; v < said_.size(); ++v) {
       if (said_[v].points.empty() && said_[v].lines.empty()) continue;
       ++count;
-      if (const std::string fault = height_fault(v, used); !fault.empty()) faults.add(fault);
+      if (const std::string fault = height_fault(v, conflicts); !fault.empty()) faults.add(fault);
     }
     if (faults.count() == 0) {
       return {"heights are those of the sources", Verdict::Holds,
@@ -378,6 +458,7 @@ class SourceChecker {
   PlainGrid vertices_, edges_, triangles_;
   std::map<Point2, Index> at_;
   PlainLakes lakes_;
+  PlainMerge merge_;
   std::vector<Said> said_;  ///< by vertex
   std::map<Index, const Sources::Conditioned*> conditioned_;
 };

@@ -38,4 +38,7 @@ struct CrsInfo {
 /// (earth-centred, vertical).
 CrsInfo describe_crs(const std::string& definition);
 
+/// Whether two definitions, of perhaps different dialects, mean the same CRS; false if one is not understood.
+bool means_same_crs(const std::string& a, const std::string& b);
+
 }  // namespace thalweg

@@ -9,6 +9,7 @@
 #include <thalweg/mesh/tin.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ struct TinView {
   std::span<const std::uint8_t> is_pit = {};
   std::span<const std::uint8_t> vertex_source = {};  ///< 0 point, 1 line vertex, 2 crossing
   std::span<const std::uint16_t> triangle_orders = {};
-  std::span<const Conflict> conflicts = {};
+  std::optional<std::span<const Conflict>> conflicts = {};  ///< none: not known; no layer of them then
   std::span<const TinAttribute> vertex_attributes = {};
   std::span<const TinAttribute> edge_attributes = {};
 };

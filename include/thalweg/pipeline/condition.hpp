@@ -37,7 +37,7 @@ struct ConditionReport {
   std::size_t filled = 0;  ///< pits
   std::size_t breached = 0;
   std::size_t left = 0;
-  std::size_t pits_before = 0;  ///< interior ones
+  std::size_t pits_before = 0;  ///< interior ones without an outlet
 };
 
 /// Reads one or more of monotone-valleys, fill, breach, separated by commas. Throws: Error{Usage}.

@@ -45,12 +45,12 @@ struct ConditionResult {
 /// Conditions the heights of a TIN; triangles stay.
 ///
 /// Valleys: drawn valley edges run downstream as `Consistency` says, and no vertex of one may be lower than
-/// the next; a line whose level ends part while heights change runs as they then do. Sum: the least sum of
-/// changes; Squares: the least sum of squares, within rounding (1e-12 of the heights' range). Fill: raises a
-/// pit to the lowest height at which its plateau drains. Breach: lowers a way along edges to the height of
-/// the pit's bottom, until the ground is lower or leaves the TIN; of all such ways the one that changes
-/// least. Pits from the highest bottom to the lowest. Water leaves at the rim, at `outlets`, and into lakes;
-/// no vertex of a lake is lowered.
+/// the next; all vertices of a lake keep one height; a line whose level ends part while heights change runs
+/// as they then do. Sum: the least sum of changes; Squares: the least sum of squares, within rounding (1e-12
+/// of the heights' range). Fill: raises a pit to the lowest height at which its plateau drains. Breach:
+/// lowers a way along edges to the height of the pit's bottom, until the ground is lower or leaves the TIN;
+/// of all such ways the one that changes least. Pits from the highest bottom to the lowest. Water leaves at
+/// the rim, at `outlets`, and into lakes; no vertex of a lake is lowered.
 ///
 /// Laws: (1) without a largest change no drawn valley rises after MonotoneValleys, and after Fill or Breach
 /// too if asked for together; (2) without one, after Fill or Breach no interior pit is left but at outlets;
