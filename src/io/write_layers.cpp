@@ -8,8 +8,8 @@
 // The date of last change in the file is fixed, so that equal input gives equal bytes.
 // One-layer formats are made in memory and copied out: a shapefile is several files, and the drivers of
 // FlatGeobuf and GeoJSON do not notice a full disk. GeoJSON is rounded to about 15 digits by its driver.
-// Longitudes on both sides of the antimeridian run on beyond 180, as those of all other layers do: a triangle
-// or line that jumped would be drawn around the whole earth.
+// Longitudes on both sides of the antimeridian run on beyond 180 or below -180, whichever is narrower: a
+// triangle or line that jumped would be drawn around the whole earth.
 // Triangles are polygons everywhere: OGR's type TIN is refused or lost by half of the drivers.
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
@@ -68,8 +68,8 @@ std::vector<Point2> turned_from(std::span<const Point2> xy, double west, double 
 }
 
 /// The positions in one turn of longitude, where they lie on both sides of the antimeridian (or of Greenwich,
-/// if longitudes run from 0), as MetricFrame has them: beyond 180, or from below 0 on. None: they can stay as
-/// they are.
+/// if longitudes run from 0); their middle is within half a turn of Greenwich. None: they can stay as they
+/// are.
 std::vector<Point2> across_antimeridian(std::span<const Point2> xy, double period) {
   const auto sides = [](std::span<const Point2> points) {
     const auto [west, east] = std::ranges::minmax(points, {}, &Point2::x);
@@ -80,7 +80,10 @@ std::vector<Point2> across_antimeridian(std::span<const Point2> xy, double perio
   if (east - west <= period / 2) return {};
   for (const double start : {0.0, -period / 2}) {
     const auto [low, high] = sides(turned_from(xy, start, period));
-    if (high - low < east - west) return turned_from(xy, (low + high) / 2 - period / 2, period);
+    if (high - low >= east - west) continue;
+    // To a hundredth of a degree, as that of MetricFrame, so that all layers are on one side.
+    const double step = period / 36000, middle = std::round((low + high) / 2 / step) * step;
+    return turned_from(xy, std::remainder(middle, period) - period / 2, period);
   }
   return {};
 }

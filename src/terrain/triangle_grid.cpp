@@ -1,4 +1,5 @@
 // A grid of cells over the TIN's box; each cell lists the triangles whose boxes meet it, by counting sort.
+// Where triangles are long, as in a fan, cells are wider, so that lists stay linear.
 #include "terrain/triangle_grid.hpp"
 
 #include <thalweg/geometry/predicates.hpp>
@@ -9,6 +10,15 @@
 namespace thalweg {
 
 namespace {
+
+/// That a triangle is in, on average, at most; of an even TIN it is four.
+constexpr std::size_t kMostCells = 32;
+
+Box2 box_of(const Tin& tin, TriangleId t) {
+  Box2 box;
+  for (const VertexId v : tin.triangle(t)) box.add(tin.point(v));
+  return box;
+}
 
 std::size_t cell(double at, double low, double size, std::size_t count) {
   const double share = size > 0 ? (at - low) / size * static_cast<double>(count) : 0;
@@ -23,10 +33,13 @@ TriangleGrid::TriangleGrid(const Tin& tin) : tin_(tin), box_(bounding_box(tin.po
   const double across = std::clamp(std::sqrt(count * width / height), 1.0, count);
   columns_ = static_cast<std::size_t>(across);
   rows_ = static_cast<std::size_t>(std::max(1.0, count / across));
+  while (columns_ * rows_ > 1 && count_entries() > kMostCells * tin.triangle_count()) {
+    columns_ = (columns_ + 1) / 2;
+    rows_ = (rows_ + 1) / 2;
+  }
   first_.assign(columns_ * rows_ + 1, 0);
   const auto for_each_cell = [&](std::size_t t, const auto& visit) {
-    Box2 box;
-    for (const VertexId v : tin.triangle(TriangleId{t})) box.add(tin.point(v));
+    const Box2 box = box_of(tin, TriangleId{t});
     const Range x = columns(box.x_min, box.x_max), y = rows(box.y_min, box.y_max);
     for (std::size_t row = y.first; row <= y.last; ++row) {
       for (std::size_t column = x.first; column <= x.last; ++column) visit(row * columns_ + column);
@@ -37,10 +50,21 @@ TriangleGrid::TriangleGrid(const Tin& tin) : tin_(tin), box_(bounding_box(tin.po
   }
   for (std::size_t c = 0; c + 1 < first_.size(); ++c) first_[c + 1] += first_[c];
   triangles_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t t = 0; t < tin.triangle_count(); ++t) {
     for_each_cell(t, [&](std::size_t c) { triangles_[next[c]++] = TriangleId{t}; });
   }
+}
+
+/// How many entries the lists of all cells have.
+std::size_t TriangleGrid::count_entries() const {
+  std::size_t entries = 0;
+  for (std::size_t t = 0; t < tin_.triangle_count(); ++t) {
+    const Box2 box = box_of(tin_, TriangleId{t});
+    const Range x = columns(box.x_min, box.x_max), y = rows(box.y_min, box.y_max);
+    entries += (x.last - x.first + 1) * (y.last - y.first + 1);
+  }
+  return entries;
 }
 
 TriangleGrid::Range TriangleGrid::columns(double low, double high) const {
@@ -54,7 +78,7 @@ TriangleGrid::Range TriangleGrid::rows(double low, double high) const {
 std::optional<TriangleId> TriangleGrid::find(Point2 p) const {
   if (!box_.contains(p)) return std::nullopt;
   const std::size_t c = rows(p.y, p.y).first * columns_ + columns(p.x, p.x).first;
-  for (std::uint32_t i = first_[c]; i < first_[c + 1]; ++i) {
+  for (std::size_t i = first_[c]; i < first_[c + 1]; ++i) {
     const Triangle& t = tin_.triangle(triangles_[i]);
     const Point2 a = tin_.point(t[0]), b = tin_.point(t[1]), d = tin_.point(t[2]);
     if (orientation(a, b, p) >= 0 && orientation(b, d, p) >= 0 && orientation(d, a, p) >= 0)

@@ -11,10 +11,10 @@
 
 namespace thalweg {
 
-/// Buckets of triangles by a grid of about as many cells as triangles. The TIN must outlive it.
+/// Buckets of triangles by a grid of at most about as many cells as triangles. The TIN must outlive it.
 class TriangleGrid {
  public:
-  /// Complexity: linear for triangles that are not much longer than others.
+  /// Memory: linear. Complexity: linear, times a logarithm where triangles are much longer than others.
   explicit TriangleGrid(const Tin& tin);
   /// A triangle that holds p, the first by id if p lies on an edge; none outside. Exact.
   [[nodiscard]] std::optional<TriangleId> find(Point2 p) const;
@@ -29,7 +29,7 @@ class TriangleGrid {
     for (std::size_t row = y.first; row <= y.last; ++row) {
       for (std::size_t column = x.first; column <= x.last; ++column) {
         const std::size_t c = row * columns_ + column;
-        for (std::uint32_t i = first_[c]; i < first_[c + 1]; ++i) {
+        for (std::size_t i = first_[c]; i < first_[c + 1]; ++i) {
           Box2 box;
           for (const VertexId v : tin_.triangle(triangles_[i])) box.add(tin_.point(v));
           if (box.x_min > query.x_max || box.x_max < query.x_min || box.y_min > query.y_max ||
@@ -50,6 +50,7 @@ class TriangleGrid {
     std::size_t first = 0;
     std::size_t last = 0;
   };
+  [[nodiscard]] std::size_t count_entries() const;
   [[nodiscard]] Range columns(double low, double high) const;
   [[nodiscard]] Range rows(double low, double high) const;
 
@@ -57,7 +58,7 @@ class TriangleGrid {
   Box2 box_;
   std::size_t columns_ = 1;
   std::size_t rows_ = 1;
-  std::vector<std::uint32_t> first_;
+  std::vector<std::size_t> first_;
   std::vector<TriangleId> triangles_;
 };
 

@@ -378,13 +378,13 @@ class SourceChecker {
 
   using Conflicts = std::map<Index, std::vector<const Conflict*>>;
 
-  /// Whether the report says that of the height `said` and another one the vertex got `z`.
+  /// Whether the report says that the height `said` was in a conflict at the vertex, which got `z` by one.
   [[nodiscard]] static bool explained(const Conflicts& conflicts, Index v, double said, double z) {
     const auto at = conflicts.find(v);
-    return at != conflicts.end() &&
-           std::any_of(at->second.begin(), at->second.end(), [&](const Conflict* conflict) {
-             return conflict->z_used == z && (conflict->z_a == said || conflict->z_b == said);
-           });
+    if (at == conflicts.end()) return false;
+    const auto any = [&](const auto& fits) { return std::ranges::any_of(at->second, fits); };
+    return any([&](const Conflict* c) { return c->z_a == said || c->z_b == said; }) &&
+           any([&](const Conflict* c) { return c->z_used == z; });
   }
 
   [[nodiscard]] std::string height_fault(Index v, const Conflicts& conflicts) const {

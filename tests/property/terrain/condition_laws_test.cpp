@@ -116,16 +116,31 @@ class PlainNets {
       next[edge.a.index()].insert(edge.b.index());
       next[edge.b.index()].insert(edge.a.index());
     }
-    for (const auto& [end, ways] : next) {
-      if (ways.size() == 2) continue;
-      for (const std::size_t at : ways) {
+    std::set<std::size_t> passed;
+    const auto trace = [&](std::size_t end) {
+      for (const std::size_t at : next[end]) {
         PlainLine line = {end, at};
-        while (next[line.back()].size() == 2) {
+        while (line.back() != end && next[line.back()].size() == 2) {
           const std::set<std::size_t>& on = next[line.back()];
           line.push_back(*on.begin() == line[line.size() - 2] ? *on.rbegin() : *on.begin());
         }
+        passed.insert(line.begin(), line.end());
         if (line.front() < line.back()) lines_.push_back(line);
+        if (line.front() == line.back() && line[1] < line[line.size() - 2]) add_ring(line);
       }
+    };
+    for (const auto& [end, ways] : next) {
+      if (ways.size() != 2) trace(end);
+    }
+    for (const auto& [start, ways] : next) {
+      if (passed.contains(start)) continue;
+      std::size_t highest = start;  // of a ring by itself
+      for (std::size_t before = start, at = *ways.begin(); at != start;) {
+        highest = rank(highest) < rank(at) ? at : highest;
+        const std::set<std::size_t>& on = next[at];
+        before = std::exchange(at, *on.begin() == before ? *on.rbegin() : *on.begin());
+      }
+      trace(highest);
     }
     for (const PlainLine& line : lines_) at_back_[line] = reach(line.back(), &line);
   }
@@ -143,6 +158,27 @@ class PlainNets {
   }
 
  private:
+  [[nodiscard]] std::tuple<double, Point2> rank(std::size_t v) const {
+    return {tin_.height(VertexId{v}), tin_.point(VertexId{v})};
+  }
+
+  /// A ring from its first vertex around to it: as two lines to its lowest vertex, or from its highest one.
+  void add_ring(const PlainLine& ring) {
+    const auto before = [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); };
+    const auto [low, high] = std::minmax_element(ring.begin() + 1, ring.end() - 1, before);
+    const auto parts = [&](PlainLine::const_iterator at) {
+      PlainLine back(std::make_reverse_iterator(ring.end()), std::make_reverse_iterator(at));
+      return std::vector{PlainLine(ring.begin(), at + 1), std::move(back)};
+    };
+    double down = 0, up = 0;
+    for (const PlainLine& line : parts(low)) down += plain_fall(tin_, line);
+    for (const PlainLine& line : parts(high)) up += plain_fall(tin_, PlainLine(line.rbegin(), line.rend()));
+    const double here = tin_.height(VertexId{ring.front()});
+    const bool can_rise = tin_.height(VertexId{*high}) > here;
+    const bool runs_down = tin_.height(VertexId{*low}) < here && (down < up || !can_rise);
+    for (PlainLine& line : parts(runs_down ? low : high)) lines_.push_back(std::move(line));
+  }
+
   /// The ends of lines that hang together with v, without one of the lines.
   [[nodiscard]] std::set<std::size_t> reach(std::size_t v, const PlainLine* without) const {
     std::set<std::size_t> found = {v};

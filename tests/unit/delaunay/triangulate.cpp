@@ -89,6 +89,13 @@ TEST(Triangulate, RefusesCrossingConstraints) {
   EXPECT_EQ(code_of([&] { of_points(lattice(3, 2), over_vertex); }), ErrorCode::InvalidTin);
 }
 
+TEST(Triangulate, RefusesConstraintsThatJoinNoTwoVertices) {
+  for (const VertexId other : {VertexId{1}, VertexId{4}, VertexId{}}) {
+    const std::vector<ConstraintEdge> edge{{VertexId{1}, other}};
+    EXPECT_EQ(code_of([&] { of_points(lattice(2, 2), edge); }), ErrorCode::InvalidTin);
+  }
+}
+
 TEST(Triangulate, KeepsConstraintsGivenTwice) {
   const std::vector<ConstraintEdge> twice{{VertexId{0}, VertexId{3}, EdgeKind::Ridge},
                                           {VertexId{3}, VertexId{0}, EdgeKind::Valley}};

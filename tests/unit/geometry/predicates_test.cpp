@@ -1,6 +1,7 @@
 // Predicates and boxes on cases whose answer is plain, and on those that floating point gets wrong.
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/geometry/slope.hpp>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,16 @@ TEST(Orientation, SeesTheLastBit) {
   EXPECT_EQ(orientation({0, 0}, {tiny, 0}, {0, tiny}), 1);
   EXPECT_EQ(orientation({0, 0}, {tiny, tiny}, {2 * tiny, 2 * tiny}), 0);
   EXPECT_EQ(orientation({-9e99, -9e99}, {9e99, 9e99}, {0, 1e-300}), 1);
+}
+
+TEST(Orientation, SeesWhatIsLostWhenScaled) {
+  EXPECT_EQ(orientation({0x1p100, 0}, {0x1p99, 0x1p-1060}, {0, 0}), 1);
+}
+
+// Products of differences are too small for doubles, but the heights are not.
+TEST(FallAcross, SeesWhatUnderflows) {
+  const Point2 a{0, 0}, b{1.6e-162, 0}, c{0.96e-162, 1e-162};
+  EXPECT_EQ(fall_across(a, 0, b, 2e99, c, 1e99), -1);
 }
 
 TEST(InCircle, SeesTheLastBit) {

@@ -68,6 +68,29 @@ TEST(Consistency, AHumpRisesDownstream) {
   EXPECT_EQ(found.rise_max_m, 2);
 }
 
+/// Around the eight vertices at distance 1 from the middle, and from (1, 0) on to x = 2.
+std::vector<ConstraintEdge> lollipop(bool with_tail) {
+  std::vector<ConstraintEdge> lines;
+  for (int i = -1; i < 1; ++i) {
+    for (const int side : {-1, 1}) {
+      lines.push_back({at(i, side), at(i + 1, side), EdgeKind::Valley});
+      lines.push_back({at(side, i), at(side, i + 1), EdgeKind::Valley});
+    }
+  }
+  if (with_tail) lines.push_back({at(1, 0), at(2, 0), EdgeKind::Valley});
+  return lines;
+}
+
+TEST(Consistency, ARingRunsBothWaysFromItsHighestVertex) {
+  const auto slope = [](int x, int y) { return 10 - 4 * x + (x == 0 && y == 1 ? 5 : 0); };
+  for (const bool with_tail : {true, false}) {
+    const Consistency found = check_consistency(lattice(slope, lollipop(with_tail)), {});
+    ASSERT_EQ(found.places.size(), 1U) << with_tail;
+    EXPECT_EQ(found.rise_sum_m, 1) << with_tail;
+    EXPECT_EQ(found.places[0].to, at(0, 1));
+  }
+}
+
 TEST(Consistency, TwoValleysDrawnTowardsEachOtherMeetWhereTheyAreLowest) {
   const auto bowl = [](int x, int y) { return (x > 0 ? 2 * x : -x) + 10 * std::abs(y); };
   EXPECT_EQ(check_consistency(lattice(bowl, middle(EdgeKind::Valley)), {}).rising_edges, 0U);

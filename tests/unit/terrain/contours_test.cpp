@@ -145,5 +145,10 @@ TEST(Contours, RefusesIntervals) {
   EXPECT_THROW(trace(tin, 1), Error);
 }
 
+TEST(Contours, TooManyAreRefusedHoweverSmallTheInterval) {
+  const Tin tin = grid_tin(3, [](double x, double y) { return 100 + x + y; });
+  for (const double interval : {1e-7, 1e-310, 5e-324}) EXPECT_THROW(trace(tin, interval), Error);
+}
+
 }  // namespace
 }  // namespace thalweg
