@@ -146,7 +146,7 @@ TEST(Contours, RefusesIntervals) {
 }
 
 TEST(Contours, TooManyAreRefusedHoweverSmallTheInterval) {
-  const Tin tin = grid_tin(3, [](double x, double y) { return 100 + x + y; });
+  const Tin tin = grid_tin(3, 3, [](double x, double y) { return 100 + x + y; });
   for (const double interval : {1e-7, 1e-310, 5e-324}) EXPECT_THROW(trace(tin, interval), Error);
 }
 
