@@ -83,7 +83,10 @@ class SurveyReading {
     const ReadOptions& options = run_.options;
     const OGRSpatialReference given =
         options.source_crs.empty() ? OGRSpatialReference() : parse_reference(options.source_crs);
-    for (const auto& reader : readers_) frames_.push_back(frame_of(*reader, given));
+    for (const auto& reader : readers_) {
+      frames_.push_back(frame_of(*reader, given));
+      note_other(reader->name() + " declares", reader->reference(), options.source_crs, "--s-crs");
+    }
     const auto known = std::find_if(frames_.begin(), frames_.end(),
                                     [](const Frame& frame) { return !frame.reference.IsEmpty(); });
     if (known != frames_.end()) {
@@ -101,6 +104,7 @@ class SurveyReading {
       survey_.vertical_metres_per_unit =
           describe_reference(survey_.reference, options.target_crs).vertical_metres_per_unit;
     }
+    note_other("the sources are in", survey_.reference, options.assigned_crs, "--a-crs");
     describe_survey();
   }
 
@@ -153,6 +157,15 @@ class SurveyReading {
         info.vertical_unit_told ? info.vertical_metres_per_unit
                                 : reader.vertical_metres_per_unit().value_or(info.vertical_metres_per_unit);
     return frame;
+  }
+
+  /// What an option puts in place of a CRS that is known.
+  void note_other(const std::string& who, const OGRSpatialReference& declared, const std::string& given,
+                  const char* option) {
+    if (given.empty() || declared.IsEmpty()) return;
+    const CrsInfo own = describe_reference(declared, who);
+    if (means_same_crs(own.wkt, given)) return;
+    run_.note(who + " " + own.name + "; " + option + " puts " + describe_crs(given).name + " in its place");
   }
 
   void adopt_unknown(const Frame& known) {
