@@ -74,8 +74,7 @@ void check_readable(const std::string& made, const std::string& path, const Rast
     return Error(ErrorCode::Unsupported, path + ": the format " + driver.GetDescription() + " " + what +
                                              "; choose another one, such as GTiff (.tif)");
   };
-  const char* const only[] = {driver.GetDescription(), nullptr};
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER, only));
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER));
   if (!dataset) throw refuse("makes no file that can be opened again");
   GDALRasterBand* const band = dataset->GetRasterCount() == 1 ? dataset->GetRasterBand(1) : nullptr;
   const bool keeps_values = band != nullptr && band->GetColorTable() == nullptr &&
