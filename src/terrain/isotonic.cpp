@@ -221,8 +221,10 @@ void run_downstream(std::span<double> values, std::span<const DownArc> arcs) {
   };
   for (const DownArc& arc : arcs) below[arc.above].push_back(arc.below);
   for (const DownArc& arc : arcs) lower(arc.above, arc.below);
-  for (std::size_t i = 0; i < lowered.size(); ++i) {
-    for (const std::uint32_t next : below[lowered[i]]) lower(lowered[i], next);
+  while (!lowered.empty()) {
+    const std::uint32_t v = lowered.back();
+    lowered.pop_back();
+    for (const std::uint32_t next : below[v]) lower(v, next);
   }
 }
 
