@@ -1,7 +1,6 @@
 // Which way drawn valleys run.
 //
-// 1. Neighbours along drawn valleys, then a walk from each vertex where there are not two of them. A walk
-// that
+// 1. Neighbours along drawn valleys, then a walk from each vertex where there are not two of them. One that
 //    comes back to where it began is a ring: cut in two at its highest or its lowest vertex, whichever takes
 //    less change. So is what is left then, rings by themselves.
 // 2. What it takes to make a line fall: the least sum of changes of a prefix, vertex by vertex. The cost as a
