@@ -1,8 +1,7 @@
 // Looking up what was given.
 //
 // 1. Positions of vertices are sorted. With a snap distance points are merged by the rule first, and a vertex
-// of
-//    a line is where the nearest of the points that are left is, else the nearest vertex within it.
+//    of a line is where the nearest of the points that are left is, else the nearest vertex within it.
 // 2. A piece of a line, from a to b, is covered by a constraint edge of its kind where that edge, cut to the
 //    strip across the piece, stays within reach. The intervals have to leave no gap. A gap whose middle is on
 //    a triangle is a fault; one off the surface is where the surface was cut.
