@@ -64,6 +64,9 @@ void run_convert(const CLI::App& command, ConvertArguments& a) {
   bool raster = false;
   for (const char* option : {"--resolution", "--extent", "--surface", "--ot"})
     raster |= command.count(option) > 0;
+  if (command.count("--ot") > 0 && a.raster.value == SurfaceValue::Hillshade) {
+    throw Error(ErrorCode::Usage, "--ot is about heights, slope and aspect; a hillshade is of bytes");
+  }
   if (a.has_contours) {
     if (raster) throw Error(ErrorCode::Usage, "--contours gives lines, and takes no options of a raster");
     if (command.count("--interval") == 0) {

@@ -1,12 +1,14 @@
 // thalweg info, view and formats.
 #include "command.hpp"
 
+#include <thalweg/base/error.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/pipeline/inspect.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +35,7 @@ void add_info_command(CLI::App& app) {
                "  thalweg info tin.ply\n"
                "  thalweg info tin.ply -f json --volume-above 450 --volume-between before.ply\n");
   command->callback([a, command] {
+    if (!std::isfinite(a->above)) throw Error(ErrorCode::Usage, "--volume-above takes a finite height");
     if (command->count("--volume-above") > 0) a->volumes.above = a->above;
     const TinInfo info = inspect_tin(a->input, progress_of(a->common), a->volumes);
     print(a->common.format == Format::Json ? to_json(info) : to_text(info));
