@@ -98,6 +98,7 @@ class ThalwegAlgorithm(QgsProcessingAlgorithm):
             details.setPostProcessor(LayerStyle(kind))
             context.addLayerToLoadOnCompletion(uri, details)
 
-    def load_tin_layers(self, path, output, context):
-        """Those layers of a TIN that a map wants."""
-        self.load_layers(path, ("breaklines", "conflicts", "tin_pits"), output, context)
+    def load_tin_layers(self, path, output, context, with_conflicts):
+        """Those layers of a TIN that a map wants; conflicts are known of one that was just built."""
+        names = ("breaklines", "conflicts", "tin_pits") if with_conflicts else ("breaklines", "tin_pits")
+        self.load_layers(path, names, output, context)

@@ -115,6 +115,6 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
         if layers:  # which alone hold the conflicts; the mesh is made from them
             run(["convert", layers, output, "--overwrite", "--progress"], feedback)
             results["LAYERS"] = layers
-            self.load_tin_layers(layers, "LAYERS", context)
+            self.load_tin_layers(layers, "LAYERS", context, with_conflicts=True)
         self.load_mesh(output, "TIN", "OUTPUT", context)
         return results

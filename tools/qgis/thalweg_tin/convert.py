@@ -90,7 +90,7 @@ breaklines. Breaklines and pits are loaded."""
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
         run(["convert", self.mesh_path(parameters, "INPUT", context), output, "--of", "GPKG", "--overwrite",
              "--progress"], feedback)
-        self.load_tin_layers(output, "OUTPUT", context)
+        self.load_tin_layers(output, "OUTPUT", context, with_conflicts=False)
         return {"OUTPUT": output}
 
 
