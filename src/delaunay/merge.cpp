@@ -67,8 +67,7 @@ void check_size(std::size_t positions) {
   constexpr std::size_t kMost = (std::size_t{1} << 31U) - 1;
   if (positions <= kMost) return;
   throw Error(ErrorCode::SizeLimit,
-              fmt::format("points and vertices of lines are {}, more than {}; split the "
-                          "area",
+              fmt::format("there are {} points and vertices of lines, more than {}; split the area",
                           positions, kMost));
 }
 

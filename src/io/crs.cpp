@@ -106,13 +106,16 @@ OGRSpatialReference parse_reference(const std::string& definition) {
   return reference;
 }
 
+bool means_same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b) {
+  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+  return a.IsSame(&b, options) != 0;
+}
+
 bool means_same_crs(const std::string& a, const std::string& b) {
   if (a == b) return true;
   try {
-    const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
-                                   "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-    const OGRSpatialReference first = parse_reference(a), second = parse_reference(b);
-    return first.IsSame(&second, options) != 0;
+    return means_same_crs(parse_reference(a), parse_reference(b));
   } catch (const Error&) {
     return false;
   }

@@ -163,9 +163,9 @@ class SurveyReading {
   void note_other(const std::string& who, const OGRSpatialReference& declared, const std::string& given,
                   const char* option) {
     if (given.empty() || declared.IsEmpty()) return;
-    const CrsInfo own = describe_reference(declared, who);
-    if (means_same_crs(own.wkt, given)) return;
-    run_.note(who + " " + own.name + "; " + option + " puts " + describe_crs(given).name + " in its place");
+    const OGRSpatialReference other = parse_reference(given);
+    if (means_same_crs(declared, other)) return;
+    run_.note(who + " " + declared.GetName() + "; " + option + " puts " + other.GetName() + " in its place");
   }
 
   void adopt_unknown(const Frame& known) {

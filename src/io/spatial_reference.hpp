@@ -14,6 +14,9 @@ namespace thalweg {
 /// Throws: Error{BadCrs}. Pre: the definition is not empty.
 OGRSpatialReference parse_reference(const std::string& definition);
 
+/// Whether two references mean the same CRS, whatever the order of their axes.
+bool means_same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b);
+
 /// What a reference says; an empty one is the unknown CRS.
 /// Throws: Error{BadCrs} naming `origin`, if the CRS has no plane.
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin);

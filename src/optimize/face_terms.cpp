@@ -13,8 +13,7 @@
 namespace thalweg {
 
 std::int64_t TermLevel::measure(double value) const {
-  // The sum of all parts has to have 63 bits too.
-  const std::int64_t steps = to_steps(value, kMostUnits / static_cast<double>(parts.size()));
+  const std::int64_t steps = to_steps(value, most_units);
   if (!limit) return steps;
   return steps > *limit ? 1 : 0;
 }
@@ -53,6 +52,7 @@ TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit
   for (const Objective::Part& part : objective.parts) {
     level.parts.push_back({&declaration_of(part.criterion), sign * part.weight});
   }
+  level.most_units = kMostUnits / static_cast<double>(level.parts.size());
   return level;
 }
 

@@ -28,6 +28,7 @@ struct TermLevel {
   std::vector<Part> parts;
   std::optional<std::int64_t> limit;
   const Reference* reference = nullptr;  ///< for terms that are measured against one
+  double most_units = 0;                 ///< of a term, so that the sum of all parts has 63 bits too
 
   [[nodiscard]] std::int64_t of(const Face& triangle, Scale scale, const Tin& tin) const;
   [[nodiscard]] std::int64_t of(const Face& left, const Face& right, Scale scale, const Tin& tin) const;

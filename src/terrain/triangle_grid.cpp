@@ -14,12 +14,6 @@ namespace {
 /// That a triangle is in, on average, at most; of an even TIN it is four.
 constexpr std::size_t kMostCells = 32;
 
-Box2 box_of(const Tin& tin, TriangleId t) {
-  Box2 box;
-  for (const VertexId v : tin.triangle(t)) box.add(tin.point(v));
-  return box;
-}
-
 std::size_t cell(double at, double low, double size, std::size_t count) {
   const double share = size > 0 ? (at - low) / size * static_cast<double>(count) : 0;
   return static_cast<std::size_t>(std::clamp(share, 0.0, static_cast<double>(count - 1)));
@@ -39,7 +33,7 @@ TriangleGrid::TriangleGrid(const Tin& tin) : tin_(tin), box_(bounding_box(tin.po
   }
   first_.assign(columns_ * rows_ + 1, 0);
   const auto for_each_cell = [&](std::size_t t, const auto& visit) {
-    const Box2 box = box_of(tin, TriangleId{t});
+    const Box2 box = box_of(TriangleId{t});
     const Range x = columns(box.x_min, box.x_max), y = rows(box.y_min, box.y_max);
     for (std::size_t row = y.first; row <= y.last; ++row) {
       for (std::size_t column = x.first; column <= x.last; ++column) visit(row * columns_ + column);
@@ -60,7 +54,7 @@ TriangleGrid::TriangleGrid(const Tin& tin) : tin_(tin), box_(bounding_box(tin.po
 std::size_t TriangleGrid::count_entries() const {
   std::size_t entries = 0;
   for (std::size_t t = 0; t < tin_.triangle_count(); ++t) {
-    const Box2 box = box_of(tin_, TriangleId{t});
+    const Box2 box = box_of(TriangleId{t});
     const Range x = columns(box.x_min, box.x_max), y = rows(box.y_min, box.y_max);
     entries += (x.last - x.first + 1) * (y.last - y.first + 1);
   }

@@ -30,8 +30,7 @@ class TriangleGrid {
       for (std::size_t column = x.first; column <= x.last; ++column) {
         const std::size_t c = row * columns_ + column;
         for (std::size_t i = first_[c]; i < first_[c + 1]; ++i) {
-          Box2 box;
-          for (const VertexId v : tin_.triangle(triangles_[i])) box.add(tin_.point(v));
+          const Box2 box = box_of(triangles_[i]);
           if (box.x_min > query.x_max || box.x_max < query.x_min || box.y_min > query.y_max ||
               box.y_max < query.y_min) {
             continue;
@@ -50,6 +49,11 @@ class TriangleGrid {
     std::size_t first = 0;
     std::size_t last = 0;
   };
+  [[nodiscard]] Box2 box_of(TriangleId t) const {
+    Box2 box;
+    for (const VertexId v : tin_.triangle(t)) box.add(tin_.point(v));
+    return box;
+  }
   [[nodiscard]] std::size_t count_entries() const;
   [[nodiscard]] Range columns(double low, double high) const;
   [[nodiscard]] Range rows(double low, double high) const;
