@@ -29,7 +29,7 @@ std::string describe_point(const Survey& survey, std::size_t point) {
                        [](std::size_t p, const SurveyPoints::Run& run) { return p < run.first; });
   if (after == runs.begin()) return fmt::format("point {}", point + 1);
   const SurveyPoints::Run& run = *std::prev(after);
-  return fmt::format("{} row {}", describe_source(survey, run.source), point - run.first + 1);
+  return fmt::format("{} point {}", describe_source(survey, run.source), point - run.first + 1);
 }
 
 std::string describe_line(const Survey& survey, std::size_t line) {

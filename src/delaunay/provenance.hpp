@@ -1,6 +1,6 @@
 #pragma once
 
-/// How messages and conflicts name what was measured: "points.csv row 17",
+/// How messages and conflicts name what was measured: "points.csv point 17", counted from 1,
 /// "lines.gpkg|valleys feature 12 part 0 vertex 3".
 
 #include <thalweg/mesh/survey.hpp>

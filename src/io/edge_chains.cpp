@@ -92,6 +92,8 @@ constexpr std::array<std::pair<EdgeKind, std::string_view>, 6> kWords = {{{EdgeK
                                                                           {EdgeKind::Hole, "hole"},
                                                                           {EdgeKind::Lake, "lake"}}};
 
+constexpr std::array<std::string_view, 3> kSourceWords = {"point", "line vertex", "crossing"};
+
 }  // namespace
 
 std::vector<EdgeChain> chain_edges(std::span<const ConstraintEdge> edges) {
@@ -117,6 +119,16 @@ std::optional<EdgeKind> parse_kind_words(std::string_view words) {
     if (word.size() == words.size()) return kind;
     words.remove_prefix(word.size() + 1);
   }
+}
+
+std::string source_word(std::uint8_t source) {
+  return source < kSourceWords.size() ? std::string(kSourceWords[source]) : "unknown";
+}
+
+std::optional<std::uint8_t> parse_source_word(std::string_view word) {
+  const auto* const known = std::find(kSourceWords.begin(), kSourceWords.end(), word);
+  if (known == kSourceWords.end()) return std::nullopt;
+  return static_cast<std::uint8_t>(known - kSourceWords.begin());
 }
 
 }  // namespace thalweg

@@ -1,9 +1,10 @@
 #pragma once
 
-/// Constraint edges as lines, and the words for their kinds.
+/// Constraint edges as lines, and the words for their kinds and for the sources of vertices.
 
 #include <thalweg/mesh/tin.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,5 +29,10 @@ std::vector<EdgeChain> chain_edges(std::span<const ConstraintEdge> edges);
 std::string kind_words(EdgeKind kind);
 /// The inverse of `kind_words`; nothing if a word is unknown.
 std::optional<EdgeKind> parse_kind_words(std::string_view words);
+
+/// "point", "line vertex", "crossing", in the order of TinView::vertex_source; "unknown" for others.
+std::string source_word(std::uint8_t source);
+/// The inverse of `source_word`; nothing if the word is unknown.
+std::optional<std::uint8_t> parse_source_word(std::string_view word);
 
 }  // namespace thalweg

@@ -26,6 +26,7 @@
 #include <mutex>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace thalweg {
 
@@ -109,7 +110,7 @@ Living& living() {
 
 }  // namespace
 
-PendingOutputs::PendingOutputs() {
+PendingOutputs::PendingOutputs(std::vector<std::string> sources) : sources_(std::move(sources)) {
   const std::scoped_lock lock(living().lock);
   living().all.push_back(this);
 }
@@ -122,7 +123,7 @@ PendingOutputs::~PendingOutputs() {
 
 void PendingOutputs::remove_written() const noexcept {
   for (const Output& output : outputs_) {
-    if (output.written == output.target) continue;
+    if (!output.is_file()) continue;
     for (const char* remains : kRemains) ::unlink((output.written + remains).c_str());
   }
 }
@@ -137,15 +138,7 @@ bool abandon_pending_outputs() noexcept {
   return true;
 }
 
-void PendingOutputs::check_new(const std::string& target) const {
-  const fs::path path = fs::weakly_canonical(target);
-  const bool known = std::any_of(outputs_.begin(), outputs_.end(), [&](const Output& output) {
-    return fs::weakly_canonical(output.target) == path;
-  });
-  if (known) throw Error(ErrorCode::Usage, target + ": two outputs have this name; give each its own");
-}
-
-std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
+PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Overwrite mode) const {
   if (target.empty()) throw Error(ErrorCode::Usage, "the name of an output is empty; give a path");
   if (target == "-") {
     throw Error(ErrorCode::Usage,
@@ -156,11 +149,7 @@ std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
   if (fs::is_directory(status)) {
     throw Error(ErrorCode::Usage, target + ": is a folder; give the name of a file in it");
   }
-  const std::scoped_lock lock(living().lock);
-  if (fs::is_character_file(status) || fs::is_fifo(status)) {
-    outputs_.push_back({target, target, mode});
-    return target;
-  }
+  if (fs::is_character_file(status) || fs::is_fifo(status)) return {target, target, mode};
   const bool link = fs::is_symlink(fs::symlink_status(target, ignored));
   const fs::path path = link ? fs::weakly_canonical(target) : fs::path(target);
   const fs::path folder = folder_of(path);
@@ -171,10 +160,35 @@ std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
   if (fs::exists(status) && mode == Overwrite::No) {
     throw exists_already(target);
   }
-  check_new(target);
-  const std::string written = unused_path(path).string();
-  outputs_.push_back({path.string(), written, mode});
-  return written;
+  for (const std::string& source : sources_) {
+    if (!fs::equivalent(target, source, ignored)) continue;
+    throw Error(ErrorCode::Usage, target + ": is a source, and would be lost; give the output another name");
+  }
+  return {path.string(), unused_path(path).string(), mode};
+}
+
+void PendingOutputs::check_new(const Output& output, const std::vector<Output>& known) {
+  for (const Output& other : known) {
+    if (!output.is_file() || fs::weakly_canonical(other.target) != fs::weakly_canonical(output.target))
+      continue;
+    throw Error(ErrorCode::Usage, output.target + ": two outputs have this name; give each its own");
+  }
+}
+
+std::string PendingOutputs::add(const std::string& target, Overwrite mode) {
+  const std::scoped_lock lock(living().lock);
+  const Output output = output_of(target, mode);
+  check_new(output, outputs_);
+  outputs_.push_back(output);
+  return output.written;
+}
+
+void PendingOutputs::plan(const std::string& target, Overwrite mode) {
+  const std::scoped_lock lock(living().lock);
+  const Output output = output_of(target, mode);
+  check_new(output, outputs_);
+  check_new(output, planned_);
+  planned_.push_back(output);
 }
 
 void PendingOutputs::remove_stale(const std::string& target, Overwrite mode) {
@@ -191,7 +205,7 @@ void PendingOutputs::remove_stale(const std::string& target, Overwrite mode) {
 
 void PendingOutputs::commit() {
   for (const Output& output : outputs_) {
-    if (output.written == output.target) continue;
+    if (!output.is_file()) continue;
     std::error_code ignored;
     const fs::file_status old = fs::status(output.target, ignored);
     if (fs::is_regular_file(old)) fs::permissions(output.written, old.permissions(), ignored);
@@ -201,7 +215,7 @@ void PendingOutputs::commit() {
   living().committed = true;
   for (const std::string& stale : stale_) ::unlink(stale.c_str());
   for (Output& output : outputs_) {
-    if (output.written == output.target) continue;
+    if (!output.is_file()) continue;
     if (!give_name(output.written, output.target, output.mode)) {
       if (errno == EEXIST) throw exists_already(output.target);
       throw Error(ErrorCode::WriteFailed, output.target + ": the finished file cannot be given its name (" +

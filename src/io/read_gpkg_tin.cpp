@@ -57,6 +57,7 @@ class GpkgReader {
     else if (OGRLayer* const lines = dataset_->GetLayerByName("breaklines"))
       read_lines(*lines);
     if (tin_.triangle_orders.size() != tin_.triangles.size()) tin_.triangle_orders.clear();
+    if (tin_.vertex_source.size() != tin_.points.size()) tin_.vertex_source.clear();
     read_crs(*triangles);
     return std::move(tin_);
   }
@@ -130,9 +131,11 @@ class GpkgReader {
     struct Row {
       GIntBig id;
       Position position;
+      std::optional<std::uint8_t> source;
     };
     std::vector<Row> rows;
     const int id_field = layer.GetLayerDefn()->GetFieldIndex("id");
+    const int source_field = layer.GetLayerDefn()->GetFieldIndex("source");
     for_each_feature(layer, [&](const OGRFeature& feature) {
       const OGRGeometry* const geometry = feature.GetGeometryRef();
       if (geometry == nullptr || wkbFlatten(geometry->getGeometryType()) != wkbPoint || !geometry->Is3D()) {
@@ -141,10 +144,14 @@ class GpkgReader {
       const OGRPoint& point = *geometry->toPoint();
       const GIntBig id = id_field >= 0 ? feature.GetFieldAsInteger64(id_field) : feature.GetFID();
       rows.push_back(
-          {id, finite("vertices", feature.GetFID(), {{point.getX(), point.getY()}, point.getZ()})});
+          {id, finite("vertices", feature.GetFID(), {{point.getX(), point.getY()}, point.getZ()}),
+           source_field < 0 ? std::nullopt : parse_source_word(feature.GetFieldAsString(source_field))});
     });
     std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.id < b.id; });
-    for (const Row& row : rows) add_vertex(row.position);
+    for (const Row& row : rows) {
+      add_vertex(row.position);
+      if (row.source) tin_.vertex_source.push_back(*row.source);
+    }
     sort_vertices();
     for (std::size_t i = 0; i + 1 < by_position_.size(); ++i) {
       if (point(i) == point(i + 1)) {

@@ -19,8 +19,13 @@ namespace {
 
 constexpr std::size_t kProgressStep = 1U << 12U;
 
+/// Comments go from # to the end of a line.
 std::string_view next_word(TextScanner& scanner, const char* what) {
-  const std::string_view word = scanner.word_anywhere();
+  std::string_view word = scanner.word_anywhere();
+  while (word.starts_with('#')) {
+    scanner.next_line();
+    word = scanner.word_anywhere();
+  }
   if (word.empty()) scanner.fail(ErrorCode::BadFormat, std::string("the file ends before ") + what);
   return word;
 }

@@ -25,9 +25,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <ranges>
 
 namespace thalweg {
 
@@ -37,11 +40,6 @@ struct Field {
   const char* name;
   OGRFieldType type;
 };
-
-const char* source_word(std::uint8_t source) {
-  constexpr std::array<const char*, 3> kWords = {"point", "line vertex", "crossing"};
-  return source < kWords.size() ? kWords[source] : "unknown";
-}
 
 const char* conflict_word(Conflict::Kind kind) {
   switch (kind) {
@@ -59,31 +57,32 @@ const char* conflict_word(Conflict::Kind kind) {
   return "unknown";
 }
 
-std::vector<Point2> turned_from(std::span<const Point2> xy, double west, double period) {
-  std::vector<Point2> turned(xy.begin(), xy.end());
-  for (Point2& p : turned) {
+/// One turn of longitude.
+struct Turn {
+  double west, period;
+  [[nodiscard]] Point2 operator()(Point2 p) const {
     if (p.x < west || p.x >= west + period) p.x -= period * std::floor((p.x - west) / period);
+    return p;
   }
-  return turned;
-}
+};
 
-/// The positions in one turn of longitude, where they lie on both sides of the antimeridian (or of Greenwich,
-/// if longitudes run from 0); their middle is within half a turn of Greenwich. None: they can stay as they
-/// are.
-std::vector<Point2> across_antimeridian(std::span<const Point2> xy, double period) {
-  const auto sides = [](std::span<const Point2> points) {
-    const auto [west, east] = std::ranges::minmax(points, {}, &Point2::x);
+/// The turn of longitude in which positions are together that lie on both sides of the antimeridian (or of
+/// Greenwich, if longitudes run from 0); their middle is within half a turn of Greenwich. None: they can stay
+/// as they are.
+std::optional<Turn> across_antimeridian(std::span<const Point2> xy, double period) {
+  const auto sides = [xy](const auto& turn) {
+    const auto [west, east] = std::ranges::minmax(xy | std::views::transform(turn), {}, &Point2::x);
     return std::pair(west.x, east.x);
   };
   if (xy.empty()) return {};
-  const auto [west, east] = sides(xy);
+  const auto [west, east] = sides(std::identity());
   if (east - west <= period / 2) return {};
   for (const double start : {0.0, -period / 2}) {
-    const auto [low, high] = sides(turned_from(xy, start, period));
+    const auto [low, high] = sides(Turn{start, period});
     if (high - low >= east - west) continue;
     // To a hundredth of a degree, as that of MetricFrame, so that all layers are on one side.
     const double step = period / 36000, middle = std::round((low + high) / 2 / step) * step;
-    return turned_from(xy, std::remainder(middle, period) - period / 2, period);
+    return Turn{std::remainder(middle, period) - period / 2, period};
   }
   return {};
 }
@@ -113,8 +112,9 @@ class LayerWriter {
     else if (!job.view.crs_authority.empty())
       reference_ = parse_reference(job.view.crs_authority);
     if (reference_ && reference_->IsGeographic() != 0) {
-      turned_ = across_antimeridian(xy_, 2 * std::numbers::pi / reference_->GetAngularUnits());
-      if (!turned_.empty()) xy_ = turned_;
+      turn_ = across_antimeridian(xy_, 2 * std::numbers::pi / reference_->GetAngularUnits());
+      if (turn_) std::ranges::transform(xy_, std::back_inserter(turned_), *turn_);
+      if (turn_) xy_ = turned_;
     }
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(format_.driver);
     if (driver == nullptr) {
@@ -253,7 +253,8 @@ class LayerWriter {
       point->setZ(tin_.heights()[v]);
       feature_->SetField(0, static_cast<GIntBig>(v));
       if (!job_.view.is_pit.empty()) feature_->SetField(1, job_.view.is_pit[v] != 0 ? 1 : 0);
-      if (!job_.view.vertex_source.empty()) feature_->SetField(2, source_word(job_.view.vertex_source[v]));
+      if (!job_.view.vertex_source.empty())
+        feature_->SetField(2, source_word(job_.view.vertex_source[v]).c_str());
       set_attributes(3, job_.view.vertex_attributes, v);
       create_feature(v, tin_.vertex_count());
     }
@@ -286,8 +287,9 @@ class LayerWriter {
     OGRPoint* const point = adopt(std::make_unique<OGRPoint>(0, 0, 0));
     for (std::size_t row = 0; row < conflicts.size(); ++row) {
       const Conflict& conflict = conflicts[row];
-      point->setX(conflict.xy.x);
-      point->setY(conflict.xy.y);
+      const Point2 xy = turn_ ? (*turn_)(conflict.xy) : conflict.xy;
+      point->setX(xy.x);
+      point->setY(xy.y);
       point->setZ(conflict.z_used);
       feature_->SetField(0, conflict_word(conflict.kind));
       feature_->SetField(1, conflict.z_a);
@@ -302,6 +304,7 @@ class LayerWriter {
   const TinWriteJob& job_;
   const Tin& tin_;
   std::span<const Point2> xy_;
+  std::optional<Turn> turn_;
   std::vector<Point2> turned_;  // xy_, where they were turned
   LayerFormat format_;
   GdalSession session_;

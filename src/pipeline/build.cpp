@@ -168,21 +168,13 @@ std::vector<Conflict> conflicts_of(std::vector<Conflict> conflicts, const Plane&
   return conflicts;
 }
 
-/// Refuses to write over what is read.
-void check_sources_stay(const BuildConfig& config, const OutputConfig& output) {
+std::vector<std::string> sources_of(const BuildConfig& config) {
   std::vector<std::string> sources;
   for (const SourceSpec& points : config.points) sources.push_back(points.path);
   for (const LineSource& lines : config.lines) sources.push_back(lines.source.path);
   for (const SourceSpec& outlets : config.condition.outlets) sources.push_back(outlets.path);
   if (config.labelling.reference) sources.push_back(config.labelling.reference->path);
-  for (const std::string& path : {output.path, output.report_path, output.picture_path, output.problem_path,
-                                  output.proof_path, output.changes_path}) {
-    for (const std::string& source : sources) {
-      std::error_code not_there;
-      if (path.empty() || !std::filesystem::equivalent(path, source, not_there)) continue;
-      throw Error(ErrorCode::Usage, path + ": is a source, and would be lost; give the output another name");
-    }
-  }
+  return sources;
 }
 
 BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const OutputConfig& output,
@@ -193,8 +185,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   report.command = "build";
   report.engine = engine_name(config.ground.engine);
   check_changes(config, output);
-  check_sources_stay(config, output);
-  RunOutputs outputs(output);
+  RunOutputs outputs(output, sources_of(config));
 
   progress.start_phase("read");
   MemoryEstimate estimate(config);

@@ -28,12 +28,8 @@ namespace thalweg {
 
 namespace {
 
-std::span<const Point2> written_of(const LoadedTin& loaded) {
-  return loaded.written.empty() ? loaded.tin.points() : std::span<const Point2>(loaded.written);
-}
-
 std::vector<std::size_t> sorted_vertices(const LoadedTin& loaded) {
-  const std::span<const Point2> xy = written_of(loaded);
+  const std::span<const Point2> xy = loaded.written_points();
   std::vector<std::size_t> order(xy.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -60,7 +56,7 @@ Tin renamed_after(const LoadedTin& before, const LoadedTin& after, const std::st
   const std::vector<std::size_t> new_order = sorted_vertices(after);
   std::vector<VertexId> renamed(old_order.size());
   for (std::size_t i = 0; i < old_order.size(); ++i) {
-    const Point2 p = written_of(before)[old_order[i]], q = written_of(after)[new_order[i]];
+    const Point2 p = before.written_points()[old_order[i]], q = after.written_points()[new_order[i]];
     const double z = before.tin.heights()[old_order[i]], w = after.tin.heights()[new_order[i]];
     if (p != q || z != w) {
       throw differ(
@@ -105,7 +101,7 @@ std::vector<std::uint8_t> marks_of(const std::vector<VertexId>& vertices, std::s
 }  // namespace
 
 void view_comparison(const CompareConfig& config, Progress& progress) {
-  PendingOutputs outputs;
+  PendingOutputs outputs({config.before, config.after});
   const std::string path = outputs.add(config.output, config.overwrite ? Overwrite::Yes : Overwrite::No);
   progress.start_phase("read");
   const LoadedTin before = load_tin(config.before, progress);

@@ -200,15 +200,8 @@ FeatureLayer change_layer(std::span<const ReportChange> changes, const Plane& pl
 
 void write_conditioned(const LoadedTin& loaded, const DrainConfig& config, PendingOutputs& outputs,
                        Progress& progress) {
-  std::vector<std::uint8_t> is_pit = find_pits(loaded.tin).is_pit;
-  std::replace(is_pit.begin(), is_pit.end(), static_cast<std::uint8_t>(PitKind::Boundary), std::uint8_t{0});
-  const TinView view{.tin = loaded.tin,
-                     .written_xy = loaded.written,
-                     .crs_wkt = loaded.crs.wkt,
-                     .crs_authority = loaded.crs.authority,
-                     .is_pit = is_pit};
-  write_tin(config.conditioned_path, view, {}, outputs, config.overwrite ? Overwrite::Yes : Overwrite::No,
-            progress);
+  write_tin(config.conditioned_path, loaded.view(loaded.inner_pits()), {}, outputs,
+            config.overwrite ? Overwrite::Yes : Overwrite::No, progress);
 }
 
 }  // namespace thalweg

@@ -14,7 +14,6 @@
 #include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/convert.hpp>
 #include <thalweg/terrain/contours.hpp>
-#include <thalweg/terrain/pits.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,10 +31,6 @@ namespace {
 struct Source {
   LoadedTin loaded;
   std::vector<std::uint16_t> orders;  ///< of the TIN's triangles; empty: not known
-
-  [[nodiscard]] std::span<const Point2> written() const {
-    return loaded.written.empty() ? loaded.tin.points() : loaded.written;
-  }
 };
 
 // Orders in the order in which a Tin sorts its triangles.
@@ -66,7 +61,8 @@ Source load_source(const std::string& path, Progress& progress) {
                                            ": " + violations.front().what +
                                            "; `thalweg info` lists all violations");
   }
-  Source source{{std::move(tin), std::move(crs), std::move(plane), {}}, std::move(orders)};
+  Source source{{std::move(tin), std::move(crs), std::move(plane), {}, std::move(file.vertex_source)},
+                std::move(orders)};
   if (source.loaded.plane.projected()) source.loaded.written = std::move(file.points);
   return source;
 }
@@ -83,15 +79,9 @@ struct Job {
 };
 
 void write_mesh(const Job& job) {
-  const PitSummary pits = find_pits(job.source.loaded.tin);
-  std::vector<std::uint8_t> is_pit = pits.is_pit;
-  std::replace(is_pit.begin(), is_pit.end(), static_cast<std::uint8_t>(PitKind::Boundary), std::uint8_t{0});
-  const TinView view{.tin = job.source.loaded.tin,
-                     .written_xy = job.source.loaded.written,
-                     .crs_wkt = job.source.loaded.crs.wkt,
-                     .crs_authority = job.source.loaded.crs.authority,
-                     .is_pit = is_pit,
-                     .triangle_orders = job.source.orders};
+  const std::vector<std::uint8_t> pits = job.source.loaded.inner_pits();
+  TinView view = job.source.loaded.view(pits);
+  view.triangle_orders = job.source.orders;
   write_tin(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
 }
 
@@ -113,7 +103,7 @@ RasterGrid make_grid(const RasterConfig& raster, const Source& source) {
     box = *raster.extent;
   } else {
     for (const Triangle& t : source.loaded.tin.triangles()) {
-      for (const VertexId v : t) box.add(source.written()[v.index()]);
+      for (const VertexId v : t) box.add(source.loaded.written_points()[v.index()]);
     }
     if (source.loaded.plane.projected() && box.width() > source.loaded.plane.x_period() / 2) {
       throw Error(
@@ -244,7 +234,7 @@ ConvertResult::Kind kind_of(const ConvertConfig& config) {
 ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
   ConvertResult result;
   result.kind = kind_of(config);
-  PendingOutputs outputs;
+  PendingOutputs outputs({config.input, config.profile ? config.profile->lines.path : std::string()});
   progress.start_phase("read");
   const Source source = load_source(config.input, progress);
   result.vertices = source.loaded.tin.vertex_count();

@@ -160,21 +160,28 @@ void write_model(const LoadedTin& loaded, const SwmmView& view, const DrainConfi
   write_text(outputs.add(config.swmm_path, mode), config.swmm_path, model.text);
 }
 
+std::vector<std::string> sources_of(const DrainConfig& config) {
+  std::vector<std::string> sources = {config.input};
+  for (const SourceSpec& outlets : config.outlets) sources.push_back(outlets.path);
+  for (const SourceSpec& seeds : config.seeds) sources.push_back(seeds.path);
+  return sources;
+}
+
 /// Refuses what would be refused after long work.
-void check_outputs(const DrainConfig& config, Overwrite mode) {
+void plan_outputs(const DrainConfig& config, PendingOutputs& outputs, Overwrite mode) {
   check_features_path(config.output);
-  PendingOutputs().add(config.output, mode);
+  outputs.plan(config.output, mode);
   if (!config.mesh_path.empty()) {
     check_mesh_path(config.mesh_path);
-    PendingOutputs().add(config.mesh_path, mode);
+    outputs.plan(config.mesh_path, mode);
   }
   if (!config.swmm_path.empty()) {
     check_swmm_path(config.swmm_path);
-    PendingOutputs().add(config.swmm_path, mode);
+    outputs.plan(config.swmm_path, mode);
   }
   if (config.conditioned_path.empty()) return;
   check_write_options(config.conditioned_path, {});
-  PendingOutputs().add(config.conditioned_path, mode);
+  outputs.plan(config.conditioned_path, mode);
 }
 
 void check_tin(const Tin& tin, const std::string& path) {
@@ -212,10 +219,10 @@ FeatureLayer changed_heights(const LoadedTin& loaded, std::span<const HeightChan
 
 DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
-  check_outputs(config, mode);
-  PendingOutputs outputs;
+  PendingOutputs outputs(sources_of(config));
   const bool to_file = !config.report_path.empty() && config.report_path != "-";
   const std::string report_path = to_file ? outputs.add(config.report_path, mode) : std::string();
+  plan_outputs(config, outputs, mode);
   DrainReport report;
   report.input = config.input;
 

@@ -4,7 +4,6 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/terrain/condition.hpp>
-#include <thalweg/terrain/pits.hpp>
 
 #include <algorithm>
 #include <array>
@@ -115,19 +114,14 @@ void check_mesh_path(const std::string& path) {
               "--mesh writes .nc (UGRID) or .gpkg, which hold values of edges, not '" + path + "'");
 }
 
-void write_flow_mesh(const LoadedTin& loaded, const FlowView& view, const DrainConfig& config,
+void write_flow_mesh(const LoadedTin& loaded, const FlowView& flow, const DrainConfig& config,
                      PendingOutputs& outputs, Progress& progress) {
-  const Attributes attributes = find_attributes(loaded, view, progress);
-  std::vector<std::uint8_t> is_pit = find_pits(loaded.tin).is_pit;
-  std::replace(is_pit.begin(), is_pit.end(), static_cast<std::uint8_t>(PitKind::Boundary), std::uint8_t{0});
-  const TinView tin{.tin = loaded.tin,
-                    .written_xy = loaded.written,
-                    .crs_wkt = loaded.crs.wkt,
-                    .crs_authority = loaded.crs.authority,
-                    .is_pit = is_pit,
-                    .vertex_attributes = attributes.vertex,
-                    .edge_attributes = attributes.edge};
-  write_tin(config.mesh_path, tin, {}, outputs, config.overwrite ? Overwrite::Yes : Overwrite::No, progress);
+  const Attributes attributes = find_attributes(loaded, flow, progress);
+  const std::vector<std::uint8_t> pits = loaded.inner_pits();
+  TinView view = loaded.view(pits);
+  view.vertex_attributes = attributes.vertex;
+  view.edge_attributes = attributes.edge;
+  write_tin(config.mesh_path, view, {}, outputs, config.overwrite ? Overwrite::Yes : Overwrite::No, progress);
 }
 
 }  // namespace thalweg

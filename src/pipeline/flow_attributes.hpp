@@ -29,7 +29,7 @@ void check_mesh_path(const std::string& path);
 /// polygon: where water runs along the rim to one that is not there, that of the ground beside), the depth of
 /// water on them if all pits were full, and the area upstream of the channels that end there; edges what they
 /// are to water, the area upstream and the Strahler order. Throws: as write_tin. Complexity: n log n.
-void write_flow_mesh(const LoadedTin& loaded, const FlowView& view, const DrainConfig& config,
+void write_flow_mesh(const LoadedTin& loaded, const FlowView& flow, const DrainConfig& config,
                      PendingOutputs& outputs, Progress& progress);
 
 }  // namespace thalweg

@@ -38,9 +38,15 @@ LoadedTin load_tin(const std::string& path, Progress& progress) {
   Plane plane(crs, file.points);
   std::vector<Point2> points = plane.to_plane(file.points, progress);
   Tin tin(std::move(points), std::move(file.heights), std::move(file.triangles), file.constraints);
-  LoadedTin loaded{std::move(tin), std::move(crs), std::move(plane), {}};
+  LoadedTin loaded{std::move(tin), std::move(crs), std::move(plane), {}, std::move(file.vertex_source)};
   if (loaded.plane.projected()) loaded.written = std::move(file.points);
   return loaded;
+}
+
+std::vector<std::uint8_t> LoadedTin::inner_pits() const {
+  std::vector<std::uint8_t> pits = find_pits(tin).is_pit;
+  std::replace(pits.begin(), pits.end(), static_cast<std::uint8_t>(PitKind::Boundary), std::uint8_t{0});
+  return pits;
 }
 
 namespace {
@@ -55,7 +61,8 @@ VolumeInfo in_metres(std::string reference, const Volumes& v, const MetricScale&
 // The other TIN in the plane of the first.
 Tin load_into(const LoadedTin& loaded, const std::string& path, Progress& progress) {
   LoadedTin other = load_tin(path, progress);
-  if (other.crs.name != loaded.crs.name) {
+  if (other.crs.known != loaded.crs.known ||
+      (other.crs.known && !means_same_crs(other.crs.wkt, loaded.crs.wkt))) {
     const auto name = [](const CrsInfo& crs) { return crs.known ? crs.name : "unknown"; };
     throw Error(ErrorCode::BadCrs, path + " is in CRS " + name(other.crs) + ", the first TIN in " +
                                        name(loaded.crs) + "; build both in one CRS (--t-crs, --a-crs)");
@@ -195,7 +202,7 @@ std::string to_text(const TinInfo& info) {
 }
 
 void view_tin(const ViewConfig& config, Progress& progress) {
-  PendingOutputs outputs;
+  PendingOutputs outputs({config.input});
   const std::string path = outputs.add(config.output, config.overwrite ? Overwrite::Yes : Overwrite::No);
   progress.start_phase("read");
   const LoadedTin loaded = load_tin(config.input, progress);

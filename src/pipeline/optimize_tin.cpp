@@ -17,6 +17,7 @@
 #include <thalweg/pipeline/build.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,11 +36,13 @@ TinFile without_unused_vertices(TinFile file, Report& report) {
     if (!renamed[v].valid()) continue;
     file.points[next] = file.points[v];
     file.heights[next] = file.heights[v];
+    if (!file.vertex_source.empty()) file.vertex_source[next] = file.vertex_source[v];
     renamed[v] = VertexId{next++};
   }
   report.tin.vertices_left_out = renamed.size() - next;
   file.points.resize(next);
   file.heights.resize(next);
+  if (!file.vertex_source.empty()) file.vertex_source.resize(next);
   for (Triangle& t : file.triangles) {
     for (VertexId& v : t) v = renamed[v.index()];
   }
@@ -97,6 +100,13 @@ Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points,
   return terrain;
 }
 
+std::vector<std::string> sources_of(const OptimizeConfig& config) {
+  std::vector<std::string> sources = {config.input};
+  for (const SourceSpec& outlets : config.condition.outlets) sources.push_back(outlets.path);
+  if (config.labelling.reference) sources.push_back(config.labelling.reference->path);
+  return sources;
+}
+
 }  // namespace
 
 BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
@@ -106,7 +116,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   report.command = "optimize";
   report.engine = engine_name(TriangulationEngine::Flat);
   check_condition(config.condition, config.labelling, config.output);
-  RunOutputs outputs(config.output);
+  RunOutputs outputs(config.output, sources_of(config));
 
   progress.start_phase("read");
   TinFile file = without_unused_vertices(read_tin(config.input, progress), report);
@@ -121,6 +131,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
 
   progress.start_phase("triangulate");
   Terrain terrain = triangulate_again(file, plane.to_plane(file.points, progress), progress);
+  terrain.vertex_source = std::move(file.vertex_source);
   if (plane.projected()) {
     terrain.written = file.points;
     terrain.continuous = plane.to_lonlat(file.points);

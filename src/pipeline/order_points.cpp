@@ -137,6 +137,13 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
   }
 }
 
+std::vector<std::string> sources_of(const OrderConfig& config) {
+  std::vector<std::string> sources;
+  for (const SourceSpec& points : config.points) sources.push_back(points.path);
+  for (const LineSource& lines : config.lines) sources.push_back(lines.source.path);
+  return sources;
+}
+
 // Orders know no heights: lines need none, and may disagree.
 void flatten(Survey& survey) {
   std::fill(survey.points.z.begin(), survey.points.z.end(), 0.0);
@@ -147,7 +154,7 @@ void flatten(Survey& survey) {
 
 OrderResult order_points(const OrderConfig& config, Progress& progress) {
   check_picture(config);
-  PendingOutputs outputs;
+  PendingOutputs outputs(sources_of(config));
   const auto reserve = [&](const std::string& path) {
     return path.empty() ? std::string()
                         : outputs.add(path, config.overwrite ? Overwrite::Yes : Overwrite::No);

@@ -54,11 +54,12 @@ double Stopwatch::total() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-RunOutputs::RunOutputs(const OutputConfig& config) {
+RunOutputs::RunOutputs(const OutputConfig& config, std::vector<std::string> sources)
+    : pending(std::move(sources)) {
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
   if (config.path.empty()) return;
   check_write_options(config.path, {.format = config.format, .creation_options = config.creation_options});
-  PendingOutputs().add(config.path, mode);  // the TIN's writer adds it again, with its sidecars
+  pending.plan(config.path, mode);
   const auto reserve = [&](const std::string& path) {
     return path.empty() || path == "-" ? std::string() : pending.add(path, mode);
   };
@@ -67,7 +68,7 @@ RunOutputs::RunOutputs(const OutputConfig& config) {
   }
   if (!config.changes_path.empty()) {
     check_features_path(config.changes_path);
-    PendingOutputs().add(config.changes_path, mode);  // its writer adds it again
+    pending.plan(config.changes_path, mode);
   }
   report = reserve(config.report_path);
   picture = reserve(config.picture_path);

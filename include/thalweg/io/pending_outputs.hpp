@@ -19,7 +19,8 @@ enum class Overwrite : std::uint8_t { No, Yes };
 /// (3) a committed file has been flushed to the device. Devices and pipes (/dev/stdout) are written directly.
 class PendingOutputs {
  public:
-  PendingOutputs();
+  /// `sources`: files that the run reads. None of them is ever a target.
+  explicit PendingOutputs(std::vector<std::string> sources = {});
   ~PendingOutputs();
   PendingOutputs(const PendingOutputs&) = delete;
   PendingOutputs& operator=(const PendingOutputs&) = delete;
@@ -27,8 +28,13 @@ class PendingOutputs {
   /// Checks that `target` can be written and returns the path to write to: no file is there yet, the folder
   /// and the extension are those of the target. A target that is a symbolic link is followed. Throws:
   /// Error{NotFound} if the folder is missing, Error{OutputExists} if the target exists and `mode` is No,
-  /// Error{Usage} if it is a folder or was added before, Error{WriteFailed} if the folder cannot be written.
+  /// Error{Usage} if it is a folder, a source, or was added before, Error{WriteFailed} if the folder cannot
+  /// be written.
   std::string add(const std::string& target, Overwrite mode);
+
+  /// Says at once what `add` would refuse after long work: its writer adds the target then. Throws: as `add`,
+  /// and if another output that was planned has this name.
+  void plan(const std::string& target, Overwrite mode);
 
   /// Sees to it that no file `target` is left after `commit`: one that would be taken for a part of the
   /// outputs. Throws: Error{OutputExists} if there is one and `mode` is No.
@@ -43,13 +49,17 @@ class PendingOutputs {
     std::string target;
     std::string written;  ///< the temporary path; the target itself for devices
     Overwrite mode = Overwrite::No;
+    [[nodiscard]] bool is_file() const { return written != target; }
   };
-  void check_new(const std::string& target) const;
+  static void check_new(const Output& output, const std::vector<Output>& known);
+  /// What becomes of a target, if it can be written. Throws: as `add`.
+  [[nodiscard]] Output output_of(const std::string& target, Overwrite mode) const;
 
   void remove_written() const noexcept;
   friend bool abandon_pending_outputs() noexcept;
 
-  std::vector<Output> outputs_;
+  std::vector<std::string> sources_;
+  std::vector<Output> outputs_, planned_;
   std::vector<std::string> stale_;
 };
 

@@ -20,6 +20,7 @@ struct TinFile {
   std::vector<Triangle> triangles;
   std::vector<ConstraintEdge> constraints;
   std::vector<std::uint16_t> triangle_orders;  ///< one a triangle, or empty
+  std::vector<std::uint8_t> vertex_source;     ///< as in TinView; or empty
   std::string crs;  ///< "EPSG:n", the WKT that the file or its sidecar holds, or empty
 };
 

@@ -55,7 +55,7 @@ struct Conflict {
   double z_a = 0;
   double z_b = 0;
   double z_used = 0;
-  std::string source_a;  ///< "file|layer feature 12 part 0 vertex 3", "file row 17"
+  std::string source_a;  ///< "file|layer feature 12 part 0 vertex 3", "file point 17", counted from 1
   std::string source_b;
 };
 

@@ -139,8 +139,8 @@ TEST(Ground, DuplicateRules) {
   const Ground ground = build(survey, {.duplicates = DuplicateRule::Last});
   ASSERT_EQ(ground.conflicts.size(), 2U);
   EXPECT_EQ(ground.conflicts[0].kind, Conflict::Kind::DuplicatePoint);
-  EXPECT_EQ(ground.conflicts[0].source_a, "points.csv row 1");
-  EXPECT_EQ(ground.conflicts[0].source_b, "points.csv row 5");
+  EXPECT_EQ(ground.conflicts[0].source_a, "points.csv point 1");
+  EXPECT_EQ(ground.conflicts[0].source_b, "points.csv point 5");
   EXPECT_EQ(ground.conflicts[0].z_used, 3);
 }
 
@@ -465,7 +465,7 @@ TEST(Ground, RefusesBadCoordinates) {
   const auto failure = failure_of(survey);
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->code, ErrorCode::BadCoordinate);
-  EXPECT_THAT(failure->message, HasSubstr("points.csv row 2"));
+  EXPECT_THAT(failure->message, HasSubstr("points.csv point 2"));
   Survey line = make_survey(kSquare);
   add_soft(line, {{2, 2}, {2e15, 3}});
   EXPECT_EQ(code_of(line), ErrorCode::BadCoordinate);

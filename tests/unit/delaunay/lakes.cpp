@@ -75,7 +75,7 @@ TEST(Lakes, TakeTheHeightOfTheirRings) {
   EXPECT_EQ(ground.conflicts[0].kind, Conflict::Kind::Lake);
   EXPECT_EQ(ground.conflicts[0].z_a, slope_height(3, 3));
   EXPECT_EQ(ground.conflicts[0].z_used, 3.25);
-  EXPECT_THAT(ground.conflicts[0].source_a, HasSubstr("points.csv row 37"));
+  EXPECT_THAT(ground.conflicts[0].source_a, HasSubstr("points.csv point 37"));
   EXPECT_THAT(ground.conflicts[0].source_b, HasSubstr("lakes.gpkg|lakes feature 1"));
 }
 
