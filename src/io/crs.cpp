@@ -14,6 +14,7 @@
 #include <thalweg/io/crs.hpp>
 
 #include <cpl_conv.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -119,6 +120,22 @@ bool means_same_crs(const std::string& a, const std::string& b) {
   } catch (const Error&) {
     return false;
   }
+}
+
+OGRSpatialReference with_heights_in(const OGRSpatialReference& plane, double metres_per_unit) {
+  const auto is = [metres_per_unit](double unit) { return std::abs(metres_per_unit / unit - 1) < 1e-12; };
+  const char* const name = is(1)               ? "metre"
+                           : is(0.3048)        ? "foot"
+                           : is(1200.0 / 3937) ? "US survey foot"
+                                               : "unit of heights";
+  const OGRSpatialReference heights =
+      parse_reference(fmt::format("VERTCRS[\"height ({0})\",VDATUM[\"unknown\"],CS[vertical,1],"
+                                  "AXIS[\"gravity-related height (H)\",up],LENGTHUNIT[\"{0}\",{1}]]",
+                                  name, metres_per_unit));
+  OGRSpatialReference compound;
+  compound.SetCompoundCS(fmt::format("{} + height ({})", plane.GetName(), name).c_str(), &plane, &heights);
+  compound.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return compound;
 }
 
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin) {

@@ -120,8 +120,8 @@ class LayerLines : public LayerReader {
   }
 
   void add_ring(const OGRFeature& feature, const OGRSimpleCurve& ring) {
+    if (ring.getNumPoints() == 0) return;
     add_line(feature, ring);
-    if (lines_.empty()) return;
     SurveyLine& line = lines_.back();
     if (line.xy.front() == line.xy.back()) return;
     line.xy.push_back(line.xy.front());

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -27,10 +28,31 @@ bool is_folder(const std::string& path) {
 void copy_out(const std::string& from, const std::string& to, const std::string& target) {
   vsi_l_offset size = 0;
   const GByte* bytes = VSIGetMemFileBuffer(from.c_str(), &size, FALSE);
+  if (bytes == nullptr || size == 0) {
+    throw Error(ErrorCode::WriteFailed, target + ": the driver made an empty file; choose another format");
+  }
   FileWriter file(to, target);
   // The standard lets bytes be looked at as characters.
   file.text({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)});
   file.close();
+}
+
+/// The files that GDAL would take for a part of this one.
+std::vector<std::string> companions(const std::string& target) {
+  std::vector<std::string> files;
+  for (const char* end : {".aux.xml", ".ovr", ".msk"}) files.push_back(target + end);
+  const std::string extension = std::filesystem::path(target).extension().string();
+  const auto beside = [&](const char* end) {
+    files.push_back(std::filesystem::path(target).replace_extension(end).string());
+  };
+  if (extension == ".shp") {
+    for (const char* end : {".prj", ".qpj", ".cpg", ".qix", ".sbn", ".sbx", ".idm", ".ind"}) beside(end);
+  } else if (extension == ".asc" || extension == ".bil" || extension == ".flt") {
+    beside(".prj");
+  } else if (extension == ".png") {
+    for (const char* end : {".wld", ".pgw", ".pngw"}) beside(end);
+  }
+  return files;
 }
 
 }  // namespace
@@ -51,6 +73,7 @@ void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, 
     throw Error(ErrorCode::Unsupported, target_ + ": the format makes a folder; choose one of files alone");
   }
   copy_out(path_, written, target_);
+  std::vector<std::string> stale = companions(target_);
   const CPLStringList names(VSIReadDir(folder_.c_str()));
   for (int i = 0; i < names.size(); ++i) {
     const std::string name = names[i];
@@ -62,12 +85,14 @@ void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, 
                                               "of files alone");
     }
     const std::string beside = std::filesystem::path(target_).replace_filename(name).string();
-    if (mode == Overwrite::No && from.ends_with(".prj") && std::filesystem::is_regular_file(beside) &&
+    std::erase(stale, beside);
+    if (from.ends_with(".prj") && std::filesystem::is_regular_file(beside) &&
         means_same_crs(read_prj_sidecar(beside), read_prj_sidecar(from))) {
       continue;  // of another format of the same name
     }
     copy_out(from, pending.add(beside, mode), beside);
   }
+  for (const std::string& file : stale) pending.remove_stale(file, mode);
 }
 
 }  // namespace thalweg

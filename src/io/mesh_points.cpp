@@ -58,6 +58,7 @@ bool is_mesh(const SourceSpec& spec) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr std::array<std::string_view, 7> kMeshes = {".ply", ".2dm", ".obj",    ".off",
                                                        ".stl", ".xml", ".landxml"};
+  if (extension == ".nc") return spec.layer.empty() && holds_ugrid_mesh(spec.path);
   return std::find(kMeshes.begin(), kMeshes.end(), extension) != kMeshes.end();
 }
 
@@ -71,7 +72,7 @@ std::unique_ptr<SourceReader> open_mesh(const SourceSpec& spec, const Progress& 
     TinFile mesh = format.read(spec.path, quiet);
     release(mesh.triangles);
     if (mesh.points.empty()) throw Error(ErrorCode::EmptyInput, spec.path + " holds no vertices");
-    if (mesh.crs.empty()) mesh.crs = read_prj_sidecar(spec.path);
+    if (mesh.crs.empty() && format.crs == TinFormat::Crs::InSidecar) mesh.crs = read_prj_sidecar(spec.path);
     return std::make_unique<MeshPoints>(spec, std::move(mesh));
   }
   throw Error(ErrorCode::Unsupported, spec.path + " is no mesh of a format that is known; convert it to PLY");

@@ -24,6 +24,7 @@
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <random>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -42,13 +43,19 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
+std::string random_word() {
+  static const unsigned word = std::random_device()();
+  return std::to_string(word);
+}
+
 // A name that no file of the folder has, proved by creating it.
 fs::path unused_path(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   const fs::path folder = folder_of(target);
   while (true) {
-    const std::string name = ".thalweg-" + std::to_string(::getpid()) + "-" + std::to_string(counter++) +
-                             target.extension().string();
+    // Numbers of processes are the same in two containers that share the folder.
+    const std::string name = ".thalweg-" + std::to_string(::getpid()) + "-" + random_word() + "-" +
+                             std::to_string(counter++) + target.extension().string();
     const fs::path path = folder / name;
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
@@ -96,6 +103,18 @@ bool give_name(const std::string& written, const std::string& target, Overwrite 
 // What SQLite may leave beside a database when it is stopped.
 constexpr std::array<const char*, 4> kRemains = {"", "-journal", "-wal", "-shm"};
 
+// What such remains hold would be taken for a part of the new database.
+void refuse_open_database(const std::string& target) {
+  for (const char* remains : {"-journal", "-wal"}) {
+    std::error_code not_there;
+    const std::uintmax_t size = fs::file_size(target + remains, not_there);
+    if (not_there || size == 0) continue;
+    throw Error(ErrorCode::WriteFailed,
+                target + ": another program has it open, or did not close it (" + target + remains +
+                    " is not empty); close it there, or open and " + "close it, or choose another name");
+  }
+}
+
 /// Those that live. Never destroyed: a thread may wait for the lock while the process ends.
 struct Living {
   std::mutex lock;
@@ -138,6 +157,14 @@ bool abandon_pending_outputs() noexcept {
   return true;
 }
 
+bool PendingOutputs::is_of_source(const std::string& target) const {
+  return std::ranges::any_of(sources_, [&](const std::string& source) {
+    std::error_code not_there;
+    return fs::equivalent(target, source, not_there) ||
+           fs::equivalent(target, fs::path(source).replace_extension(".prj"), not_there);
+  });
+}
+
 PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Overwrite mode) const {
   if (target.empty()) throw Error(ErrorCode::Usage, "the name of an output is empty; give a path");
   if (target == "-") {
@@ -151,7 +178,10 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
   }
   if (fs::is_character_file(status) || fs::is_fifo(status)) return {target, target, mode};
   const bool link = fs::is_symlink(fs::symlink_status(target, ignored));
-  const fs::path path = link ? fs::weakly_canonical(target) : fs::path(target);
+  const fs::path path = link ? fs::weakly_canonical(target, ignored) : fs::path(target);
+  if (path.empty()) {
+    throw Error(ErrorCode::WriteFailed, target + ": is a link that leads nowhere; remove it");
+  }
   const fs::path folder = folder_of(path);
   if (!fs::is_directory(folder, ignored)) {
     throw Error(ErrorCode::NotFound, target + ": there is no folder '" + folder.string() +
@@ -160,8 +190,8 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
   if (fs::exists(status) && mode == Overwrite::No) {
     throw exists_already(target);
   }
-  for (const std::string& source : sources_) {
-    if (!fs::equivalent(target, source, ignored)) continue;
+  if (fs::exists(status)) refuse_open_database(path.string());
+  if (is_of_source(target)) {
     throw Error(ErrorCode::Usage, target + ": is a source, and would be lost; give the output another name");
   }
   return {path.string(), unused_path(path).string(), mode};
@@ -200,6 +230,11 @@ void PendingOutputs::remove_stale(const std::string& target, Overwrite mode) {
                     ": would be taken for a part of the output; move it away, choose "
                     "another name, or remove it with --overwrite");
   }
+  if (is_of_source(target)) {
+    throw Error(ErrorCode::Usage, target +
+                                      ": belongs to a source, but would be taken for a part of the output; " +
+                                      "give that another name");
+  }
   stale_.push_back(target);
 }
 
@@ -210,12 +245,16 @@ void PendingOutputs::commit() {
     const fs::file_status old = fs::status(output.target, ignored);
     if (fs::is_regular_file(old)) fs::permissions(output.written, old.permissions(), ignored);
     sync_to_device(output.written, output.target);
+    if (fs::is_regular_file(old)) refuse_open_database(output.target);
   }
   const std::scoped_lock lock(living().lock);
   living().committed = true;
   for (const std::string& stale : stale_) ::unlink(stale.c_str());
   for (Output& output : outputs_) {
     if (!output.is_file()) continue;
+    for (const char* remains : kRemains) {
+      if (*remains != 0) ::unlink((output.target + remains).c_str());
+    }
     if (!give_name(output.written, output.target, output.mode)) {
       if (errno == EEXIST) throw exists_already(output.target);
       throw Error(ErrorCode::WriteFailed, output.target + ": the finished file cannot be given its name (" +

@@ -12,6 +12,7 @@
 #include "io/plane_transform.hpp"
 
 #include "io/gdal_session.hpp"
+#include "io/spatial_reference.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -41,12 +42,6 @@ OGRSpatialReference horizontal_part(const OGRSpatialReference& reference) {
   return part;
 }
 
-bool same_plane(const OGRSpatialReference& a, const OGRSpatialReference& b) {
-  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
-                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-  return a.IsSame(&b, options) != 0;
-}
-
 std::string name_of(const OGRSpatialReference& reference) {
   const char* name = reference.GetName();
   return name != nullptr ? name : "unnamed";
@@ -71,7 +66,7 @@ PlaneTransform::PlaneTransform(Frame from, Frame to, std::string origin)
   if (!is_known) return;
   const OGRSpatialReference source = with_heights ? from_.reference : horizontal_part(from_.reference);
   const OGRSpatialReference target = with_heights ? to_.reference : horizontal_part(to_.reference);
-  if (same_plane(source, target)) return;
+  if (means_same_crs(source, target)) return;
 
   GdalSession session;
   OGRCoordinateTransformationOptions options;

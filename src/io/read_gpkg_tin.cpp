@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace thalweg {
 
@@ -59,6 +60,7 @@ class GpkgReader {
     if (tin_.triangle_orders.size() != tin_.triangles.size()) tin_.triangle_orders.clear();
     if (tin_.vertex_source.size() != tin_.points.size()) tin_.vertex_source.clear();
     read_crs(*triangles);
+    turn_back(*triangles);
     return std::move(tin_);
   }
 
@@ -244,6 +246,18 @@ class GpkgReader {
     if (reference == nullptr || std::string(reference->GetName()).rfind("Undefined", 0) == 0) return;
     const CrsInfo info = describe_reference(*reference, path_);
     tin_.crs = info.authority.empty() ? info.wkt : info.authority;
+  }
+
+  /// To the longitudes that the TIN had before it was written.
+  void turn_back(OGRLayer& layer) {
+    const OGRSpatialReference* const reference = layer.GetSpatialRef();
+    const char* const description = layer.GetMetadataItem("DESCRIPTION");
+    if (reference == nullptr || reference->IsGeographic() == 0 || description == nullptr) return;
+    const std::optional<double> west = parse_turned(description);
+    const double period = 2 * std::numbers::pi / reference->GetAngularUnits();
+    for (Point2& p : tin_.points) {
+      if (west && (p.x < *west || p.x > *west + period)) p.x -= period * std::floor((p.x - *west) / period);
+    }
   }
 
   const std::string& path_;

@@ -183,8 +183,7 @@ class SurveyReading {
     CrsInfo& crs = run_.result.crs;
     crs = assigned.empty() ? describe_reference(survey_.reference, "the survey") : describe_crs(assigned);
     if (!crs.vertical_unit_told && survey_.vertical_unit_told && run_.options.target_crs.empty()) {
-      crs.vertical_metres_per_unit = survey_.vertical_metres_per_unit;
-      crs.vertical_unit_told = true;
+      tell_vertical_unit(crs);
     }
     if (crs.vertical_unit_told || crs.vertical_metres_per_unit == 1) return;
     std::ostringstream metres;
@@ -193,6 +192,18 @@ class SurveyReading {
     run_.note("the CRS " + crs.name +
               " does not tell the unit of heights; it is taken to be the horizontal one, " + metres.str() +
               " m (another: give a compound CRS, as EPSG:2994+5703)");
+  }
+
+  /// The unit of heights that a source tells, but the CRS does not, becomes a part of that, so that outputs
+  /// tell it too; where nothing is known but the unit, heights become metres.
+  void tell_vertical_unit(CrsInfo& crs) {
+    const double unit = survey_.vertical_metres_per_unit;
+    if (!crs.known) {
+      survey_.vertical_metres_per_unit = crs.vertical_metres_per_unit;
+    } else if (unit != crs.vertical_metres_per_unit) {
+      crs = describe_reference(with_heights_in(parse_reference(crs.wkt), unit), "the survey");
+    }
+    crs.vertical_unit_told = true;
   }
 
   void take_warnings(const std::string& name) {

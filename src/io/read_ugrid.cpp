@@ -219,6 +219,21 @@ class UgridReader {
 
 }  // namespace
 
+bool holds_ugrid_mesh(const std::string& path) {
+  try {
+    const NetcdfFile file(path, path, NetcdfFile::Mode::Read);
+    int count = 0;
+    file.check(nc_inq_nvars(file.id(), &count));
+    std::size_t length = 0;
+    for (int variable = 0; variable < count; ++variable) {
+      if (nc_inq_attlen(file.id(), variable, "topology_dimension", &length) == NC_NOERR) return true;
+    }
+  } catch (const Error&) {
+    return false;  // whoever reads it says what is wrong
+  }
+  return false;
+}
+
 TinFile read_ugrid(const std::string& path, Progress& progress) {
   check_netcdf_length(path);
   return UgridReader(path, progress).read();

@@ -80,6 +80,7 @@ std::optional<RowParser::Coordinates> RowParser::parse(const char* begin, const 
   if (!position_.empty() || decimal_ != '.') return std::nullopt;
   Coordinates coordinates{};
   const char* p = skip_blanks(begin, end);
+  if (p != end && (*p == '#' || *p == '/')) return std::nullopt;  // a comment, or no number
   std::size_t index = 0;
   for (const Column& column : columns_) {
     for (; index < column.index; ++index) {

@@ -17,6 +17,9 @@ OGRSpatialReference parse_reference(const std::string& definition);
 /// Whether two references mean the same CRS, whatever the order of their axes.
 bool means_same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b);
 
+/// The compound CRS of a reference without a vertical part and heights in this unit above no known datum.
+OGRSpatialReference with_heights_in(const OGRSpatialReference& plane, double metres_per_unit);
+
 /// What a reference says; an empty one is the unknown CRS.
 /// Throws: Error{BadCrs} naming `origin`, if the CRS has no plane.
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin);

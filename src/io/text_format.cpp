@@ -69,7 +69,7 @@ bool stands_outside_quotes(std::string_view row, char separator) {
   for (const char c : row) {
     if (c == '"' && (quoted || field_begins)) quoted = !quoted;
     if (c == separator && !quoted) return true;
-    field_begins = c == ',' || (field_begins && is_blank(c));
+    field_begins = c == ',' || c == ';' || c == '\t' || (field_begins && is_blank(c));
   }
   return false;
 }

@@ -6,6 +6,7 @@
 #include <thalweg/io/write_tin.hpp>
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +56,12 @@ struct TinWriteJob {
   }
 };
 
+/// What the layer of triangles says of itself where its longitudes run on across the antimeridian: from where
+/// on those of the TIN lie in one turn.
+std::string describe_turned(double west);
+/// The inverse; nothing if the layer says nothing of that.
+std::optional<double> parse_turned(std::string_view description);
+
 struct TinFormat {
   FormatInfo info;
   enum class Crs : std::uint8_t { InFile, InSidecar } crs;
@@ -101,6 +108,8 @@ TinFile read_obj(const std::string& path, Progress& progress);
 TinFile read_off(const std::string& path, Progress& progress);
 TinFile read_stl(const std::string& path, Progress& progress);
 TinFile read_ugrid(const std::string& path, Progress& progress);
+/// Whether a file is NetCDF with a mesh, rather than a raster.
+bool holds_ugrid_mesh(const std::string& path);
 TinFile read_landxml(const std::string& path, Progress& progress);
 TinFile read_gpkg_tin(const std::string& path, Progress& progress);
 

@@ -12,6 +12,7 @@
 // triangle or line that jumped would be drawn around the whole earth.
 // Triangles are polygons everywhere: OGR's type TIN is refused or lost by half of the drivers.
 #include "io/edge_chains.hpp"
+#include "io/file_content.hpp"
 #include "io/gdal_session.hpp"
 #include "io/memory_folder.hpp"
 #include "io/spatial_reference.hpp"
@@ -19,6 +20,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -40,6 +42,8 @@ struct Field {
   const char* name;
   OGRFieldType type;
 };
+
+constexpr std::string_view kTurned = "Longitudes run on across the antimeridian; those of the TIN lie from ";
 
 const char* conflict_word(Conflict::Kind kind) {
   switch (kind) {
@@ -114,7 +118,10 @@ class LayerWriter {
     if (reference_ && reference_->IsGeographic() != 0) {
       turn_ = across_antimeridian(xy_, 2 * std::numbers::pi / reference_->GetAngularUnits());
       if (turn_) std::ranges::transform(xy_, std::back_inserter(turned_), *turn_);
-      if (turn_) xy_ = turned_;
+      if (turn_) {
+        west_ = std::ranges::min(xy_, {}, &Point2::x).x < 0 ? -turn_->period / 2 : 0;
+        xy_ = turned_;
+      }
     }
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(format_.driver);
     if (driver == nullptr) {
@@ -137,6 +144,11 @@ class LayerWriter {
     if (wanted("breaklines")) write_breaklines();
     // A TIN that was read does not know them, and none is not the same as unknown.
     if (wanted("conflicts") && job_.view.conflicts) write_conflicts();
+    if (dataset_->GetLayerCount() == 0) {
+      throw Error(ErrorCode::Usage, job_.target +
+                                        ": conflicts are known of what `thalweg build` makes, not of " +
+                                        "a TIN that was read; choose another layer");
+    }
     if (format_.transactions == Transactions::One && dataset_->CommitTransaction() != OGRERR_NONE) fail();
     feature_.reset();
     dataset_.reset();
@@ -154,6 +166,9 @@ class LayerWriter {
   void create_layer(const char* name, OGRwkbGeometryType type, std::initializer_list<Field> fields,
                     std::span<const TinAttribute> attributes = {}) {
     CPLStringList options;
+    if (turn_ && dataset_->GetDriver()->GetDescription() == std::string_view("GPKG")) {
+      options.SetNameValue("DESCRIPTION", describe_turned(west_).c_str());
+    }
     for (const std::string& option : format_.layer_options) options.AddString(option.c_str());
     layer_ = dataset_->CreateLayer(name, reference_ ? &*reference_ : nullptr, type, options.List());
     if (layer_ == nullptr) fail();
@@ -305,6 +320,7 @@ class LayerWriter {
   const Tin& tin_;
   std::span<const Point2> xy_;
   std::optional<Turn> turn_;
+  double west_ = 0;             // of the turn in which longitudes were
   std::vector<Point2> turned_;  // xy_, where they were turned
   LayerFormat format_;
   GdalSession session_;
@@ -324,6 +340,15 @@ void write_one_layer(const TinWriteJob& job, const char* driver, std::vector<std
 }
 
 }  // namespace
+
+std::string describe_turned(double west) {
+  return fmt::format("{}{}", kTurned, west);
+}
+
+std::optional<double> parse_turned(std::string_view description) {
+  if (!description.starts_with(kTurned)) return std::nullopt;
+  return parse_number(description.substr(kTurned.size()));
+}
 
 void write_gpkg(const TinWriteJob& job) {
   const char* const index = job.options.enabled("SPATIAL_INDEX") ? "SPATIAL_INDEX=YES" : "SPATIAL_INDEX=NO";

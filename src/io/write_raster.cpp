@@ -14,13 +14,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
 
 namespace {
-
-constexpr double kNodata = -9999;
 
 GDALDataType gdal_type(RasterType type) {
   switch (type) {
@@ -39,7 +38,21 @@ GDALDataType gdal_type(RasterType type) {
                                           "; choose another format or other creation options");
 }
 
-GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& view,
+/// Marks the cells without data: no other cell has this value.
+double choose_nodata(const RasterView& view) {
+  if (view.type == RasterType::Byte) return 0;
+  const auto is_value = [&](double nodata) {
+    const bool single = view.type == RasterType::Float32;
+    return std::ranges::any_of(view.values, [&](double value) {
+      return (single ? static_cast<double>(static_cast<float>(value)) : value) == nodata;
+    });
+  };
+  double nodata = -9999;
+  while (is_value(nodata)) nodata = 10 * nodata - 9;
+  return nodata;
+}
+
+GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& view, double nodata,
                                   const GdalSession& session) {
   GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
   const int columns = static_cast<int>(view.grid.columns), rows = static_cast<int>(view.grid.rows);
@@ -53,9 +66,12 @@ GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& vie
     dataset->SetSpatialRef(&reference);
   }
   GDALRasterBand& band = *dataset->GetRasterBand(1);
-  const double nodata = view.type == RasterType::Byte ? 0 : kNodata;
   band.SetNoDataValue(nodata);
   band.SetDescription(view.description.c_str());
+  for (const auto& [metres, name] :
+       {std::pair(1.0, "m"), std::pair(0.3048, "ft"), std::pair(1200.0 / 3937, "US survey foot")}) {
+    if (std::abs(view.metres_per_unit / metres - 1) < 1e-12) band.SetUnitType(name);
+  }
   std::vector<double> line(view.grid.columns);
   for (int row = 0; row < rows; ++row) {
     const auto from = view.values.begin() + static_cast<std::ptrdiff_t>(view.grid.columns) * row;
@@ -68,7 +84,7 @@ GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& vie
 }
 
 /// What the driver made, opened again: some write what nobody can read, or colours instead of heights.
-void check_readable(const std::string& made, const std::string& path, const RasterView& view,
+void check_readable(const std::string& made, const std::string& path, const RasterView& view, double nodata,
                     const GDALDriver& driver) {
   const auto refuse = [&](const std::string& what) {
     return Error(ErrorCode::Unsupported, path + ": the format " + driver.GetDescription() + " " + what +
@@ -81,12 +97,21 @@ void check_readable(const std::string& made, const std::string& path, const Rast
                             (view.type == RasterType::Byte || band->GetRasterDataType() != GDT_Byte);
   if (!keeps_values) throw refuse("turns heights into colours");
   int has_nodata = FALSE;
-  const double nodata = band->GetNoDataValue(&has_nodata);
+  const double told = band->GetNoDataValue(&has_nodata);
   const bool any_without =
       std::any_of(view.values.begin(), view.values.end(), [](double v) { return std::isnan(v); });
-  if (any_without && view.type != RasterType::Byte && (has_nodata == FALSE || nodata != kNodata)) {
+  if (any_without && view.type != RasterType::Byte && (has_nodata == FALSE || told != nodata)) {
     throw refuse("cannot tell the cells without data");
   }
+}
+
+/// Whether what the driver made says where the cells lie, and in which CRS.
+bool tells_place(const std::string& made, const RasterView& view) {
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER));
+  std::array<double, 6> transform{};
+  if (!dataset || dataset->GetGeoTransform(transform.data()) != CE_None) return false;
+  const OGRSpatialReference* const reference = dataset->GetSpatialRef();
+  return view.crs_wkt.empty() || (reference != nullptr && !reference->IsEmpty());
 }
 
 int report_progress(double fraction, const char*, void* progress) {
@@ -109,7 +134,6 @@ bool is_raster_format(const std::string& path, const std::string& format) {
 void write_raster(const std::string& path, const RasterView& view, const WriteOptions& options,
                   PendingOutputs& pending, Overwrite mode, Progress& progress) {
   const GdalSession session;
-  const CPLConfigOptionSetter no_sidecar("GDAL_PAM_ENABLED", "NO", false);
   GDALDriver* driver = find_output_driver(path, options.format, DriverUse::Raster);
   if (driver == nullptr) {
     throw Error(ErrorCode::Usage,
@@ -123,16 +147,23 @@ void write_raster(const std::string& path, const RasterView& view, const WriteOp
   const DriverOptions creation = sort_options(*driver, options.creation_options, DriverUse::Raster);
   progress.start_phase(std::string("write ") + driver->GetDescription());
   const std::string written = pending.add(path, mode);
-  const GDALDatasetUniquePtr dataset = make_dataset(path, view, session);
-  const MemoryFolder folder(path);
-  GDALDatasetUniquePtr copy(driver->CreateCopy(folder.path().c_str(), dataset.get(), FALSE,
-                                               creation.dataset.List(), report_progress, &progress));
-  progress.check();
-  if (!copy) fail(path, session);
-  copy.reset();
-  if (session.failed()) fail(path, session);
-  check_readable(folder.path(), path, view, *driver);
-  folder.deliver(written, pending, mode);
+  const double nodata = choose_nodata(view);
+  const GDALDatasetUniquePtr dataset = make_dataset(path, view, nodata, session);
+  for (const bool sidecar :
+       {false, true}) {  // GDAL's own, .aux.xml, where the format does not tell the place
+    const CPLConfigOptionSetter choice("GDAL_PAM_ENABLED", sidecar ? "YES" : "NO", false);
+    const MemoryFolder folder(path);
+    GDALDatasetUniquePtr copy(driver->CreateCopy(folder.path().c_str(), dataset.get(), FALSE,
+                                                 creation.dataset.List(), report_progress, &progress));
+    progress.check();
+    if (!copy) fail(path, session);
+    copy.reset();
+    if (session.failed()) fail(path, session);
+    if (!sidecar && !tells_place(folder.path(), view)) continue;
+    check_readable(folder.path(), path, view, nodata, *driver);
+    folder.deliver(written, pending, mode);
+    break;
+  }
   progress.advance(1);
 }
 

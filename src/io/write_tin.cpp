@@ -93,8 +93,7 @@ void write_sidecar(const std::string& path, const TinView& view, PendingOutputs&
     return;
   }
   const std::string text = prj_text(definition);
-  const bool is_there = mode == Overwrite::No && std::filesystem::is_regular_file(path);
-  if (is_there && means_same_crs(read_prj_sidecar(path), text)) return;
+  if (std::filesystem::is_regular_file(path) && means_same_crs(read_prj_sidecar(path), text)) return;
   FileWriter file(pending.add(path, mode), path);
   file.text(text + "\n");
   file.close();

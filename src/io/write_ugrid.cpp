@@ -9,6 +9,8 @@
 
 #include <thalweg/io/crs.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -196,7 +198,7 @@ class UgridWriter {
     return std::stoll(text);
   }
 
-  static std::string unit(double metres) { return metres == 1 ? "m" : std::to_string(metres) + " m"; }
+  static std::string unit(double metres) { return metres == 1 ? "m" : fmt::format("{} m", metres); }
 
   static int put_block(int file, int variable, const std::size_t* start, const std::size_t* count,
                        const double* p) {

@@ -111,7 +111,7 @@ std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& 
   return keep;
 }
 
-/// Constraint edges that lie wholly outside of the data go with its triangles: the report says how many.
+/// Constraint edges that lie wholly outside of the surface go with its triangles: the report says how many.
 void note_lost_edges(const Terrain& terrain, Report& report) {
   if (terrain.whole()) return;
   const Tin& ground = terrain.ground;
@@ -121,7 +121,8 @@ void note_lost_edges(const Terrain& terrain, Report& report) {
   });
   if (lost == 0) return;
   report.notes.push_back(std::to_string(lost) +
-                         " edges of lines lie where the raster has no data at its frame; they are left out");
+                         " edges of lines lie where the surface ends (no data at a raster's frame, "
+                         "--max-edge); they are left out");
 }
 
 void describe_input(const ReadResult& read, const Ground& ground, Report& report) {

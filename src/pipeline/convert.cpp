@@ -11,7 +11,6 @@
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/read_tin.hpp>
 #include <thalweg/io/write_lines.hpp>
-#include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/convert.hpp>
 #include <thalweg/terrain/contours.hpp>
 
@@ -52,18 +51,8 @@ std::vector<std::uint16_t> sorted_orders(const TinFile& file) {
 Source load_source(const std::string& path, Progress& progress) {
   TinFile file = read_tin(path, progress);
   std::vector<std::uint16_t> orders = sorted_orders(file);
-  CrsInfo crs = describe_crs(file.crs);
-  Plane plane(crs, file.points);
-  Tin tin(plane.to_plane(file.points, progress), std::move(file.heights), std::move(file.triangles),
-          file.constraints);
-  if (const auto violations = validate(tin); !violations.empty()) {
-    throw Error(ErrorCode::InvalidTin, path + ": breaks law " + std::to_string(violations.front().code) +
-                                           ": " + violations.front().what +
-                                           "; `thalweg info` lists all violations");
-  }
-  Source source{{std::move(tin), std::move(crs), std::move(plane), {}, std::move(file.vertex_source)},
-                std::move(orders)};
-  if (source.loaded.plane.projected()) source.loaded.written = std::move(file.points);
+  Source source{load_tin(std::move(file), path, progress), std::move(orders)};
+  refuse_broken(source.loaded.tin, path);
   return source;
 }
 
@@ -156,11 +145,13 @@ void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& re
   result.rows = grid.rows;
   result.cells_without_data = static_cast<std::size_t>(
       std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
-  const RasterView view{.grid = grid,
-                        .values = values,
-                        .type = raster.value == SurfaceValue::Hillshade ? RasterType::Byte : raster.type,
-                        .crs_wkt = job.source.loaded.crs.wkt,
-                        .description = band_name(raster.value)};
+  const RasterView view{
+      .grid = grid,
+      .values = values,
+      .type = raster.value == SurfaceValue::Hillshade ? RasterType::Byte : raster.type,
+      .crs_wkt = job.source.loaded.crs.wkt,
+      .description = band_name(raster.value),
+      .metres_per_unit = raster.value == SurfaceValue::Elevation ? plane.vertical_metres_per_unit() : 0};
   write_raster(job.config.output, view, job.options(), job.outputs, job.overwrite(), job.progress);
 }
 

@@ -15,7 +15,6 @@
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/write_tin.hpp>
-#include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/drain.hpp>
 
 #include <fmt/format.h>
@@ -185,11 +184,7 @@ void plan_outputs(const DrainConfig& config, PendingOutputs& outputs, Overwrite 
 }
 
 void check_tin(const Tin& tin, const std::string& path) {
-  if (const auto violations = validate(tin); !violations.empty()) {
-    throw Error(ErrorCode::InvalidTin,
-                fmt::format("{} breaks law {}: {}; `thalweg info` lists all violations", path,
-                            violations.front().code, violations.front().what));
-  }
+  refuse_broken(tin, path);
   if (tin.triangle_count() == 0) {
     throw Error(ErrorCode::EmptyInput, path + ": has no triangle, so no water runs; give a TIN with some");
   }

@@ -4,6 +4,7 @@
 
 #include "pipeline/plane.hpp"
 
+#include <thalweg/io/read_tin.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/mesh/tin.hpp>
 
@@ -37,7 +38,12 @@ struct LoadedTin {
   }
 };
 
-/// Throws: what reading and projecting throw.
+/// Brings what was read of `path` to its plane. Throws: what projecting throws; Error{InvalidTin} naming the
+/// file, for triangles that make no surface.
+LoadedTin load_tin(TinFile file, const std::string& path, Progress& progress);
+/// The same of a file. Throws: what reading throws, too.
 LoadedTin load_tin(const std::string& path, Progress& progress);
+/// Throws: Error{InvalidTin} naming the file and the first law that its TIN breaks.
+void refuse_broken(const Tin& tin, const std::string& path);
 
 }  // namespace thalweg

@@ -4,6 +4,7 @@
 // is missing there is added as a boundary constraint and the triangulation repeated. The surface is what lies
 // inside of the outline: a flood from the inner side of every outline edge that does not cross the outline.
 #include "pipeline/condition_tin.hpp"
+#include "pipeline/loaded_tin.hpp"
 #include "pipeline/outlets.hpp"
 #include "pipeline/plane.hpp"
 #include "pipeline/surface.hpp"
@@ -13,7 +14,6 @@
 #include <thalweg/delaunay/trim.hpp>
 #include <thalweg/io/read_tin.hpp>
 #include <thalweg/mesh/change_tin.hpp>
-#include <thalweg/mesh/validate.hpp>
 #include <thalweg/pipeline/build.hpp>
 
 #include <algorithm>
@@ -25,11 +25,14 @@ namespace thalweg {
 
 namespace {
 
-/// The TIN file without the vertices that are in no triangle.
+/// The TIN file without the vertices that are in no triangle, nor at a constraint edge.
 TinFile without_unused_vertices(TinFile file, Report& report) {
   std::vector<VertexId> renamed(file.points.size());
   for (const Triangle& t : file.triangles) {
     for (const VertexId v : t) renamed[v.index()] = v;
+  }
+  for (const ConstraintEdge& edge : file.constraints) {
+    for (const VertexId v : {edge.a, edge.b}) renamed[v.index()] = v;
   }
   std::size_t next = 0;
   for (std::size_t v = 0; v < renamed.size(); ++v) {
@@ -68,13 +71,18 @@ bool bounds(EdgeKind kind) {
 
 /// Where the outline is not all edges of the Delaunay triangulation, or some of it is drawn, it bounds the
 /// ground, and all of it is constrained.
-Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points, Progress& progress) {
-  const Tin given(plane_points, file.heights, file.triangles, file.constraints);
-  if (const auto violations = validate(given, {}); !violations.empty()) {
-    throw Error(ErrorCode::InvalidTin, "the TIN breaks law " + std::to_string(violations.front().code) +
-                                           ": " + violations.front().what +
-                                           "; `thalweg info` lists all violations");
-  }
+Terrain triangulate_again(const TinFile& file, std::vector<Point2> plane_points, const std::string& path,
+                          Progress& progress) {
+  const Tin given = [&]() -> Tin {
+    try {
+      Tin tin(plane_points, file.heights, file.triangles, file.constraints);
+      refuse_broken(tin, path);
+      return tin;
+    } catch (const Error&) {
+      refuse_broken(load_tin(path, progress).tin, path);  // by the numbers of the file
+      throw;
+    }
+  }();
   const auto outline = outline_of(given);
   std::vector<ConstraintEdge> constraints = given.constraint_edges();
   Terrain terrain;
@@ -130,7 +138,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   report.timings_s.read = watch.lap();
 
   progress.start_phase("triangulate");
-  Terrain terrain = triangulate_again(file, plane.to_plane(file.points, progress), progress);
+  Terrain terrain = triangulate_again(file, plane.to_plane(file.points, progress), config.input, progress);
   terrain.vertex_source = std::move(file.vertex_source);
   if (plane.projected()) {
     terrain.written = file.points;

@@ -14,9 +14,13 @@ namespace thalweg {
 
 ProfileTable profile_table(const LoadedTin& loaded, const ProfileConfig& config, Progress& progress) {
   ReadOptions options;
-  if (loaded.crs.known) options.target_crs = loaded.crs.wkt;
   const LineSource source{config.lines, EdgeKind::Breakline};
-  const Survey survey = read_survey({}, std::span(&source, 1), options, progress).survey;
+  ReadResult read = read_survey({}, std::span(&source, 1), options, progress);
+  if (loaded.crs.known && read.crs.known) {
+    options.target_crs = loaded.crs.wkt;
+    read = read_survey({}, std::span(&source, 1), options, progress);
+  }
+  const Survey& survey = read.survey;
   progress.start_phase("profile");
   const Plane& plane = loaded.plane;
   const ProfileTracer tracer(loaded.tin);

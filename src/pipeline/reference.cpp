@@ -8,8 +8,8 @@ namespace thalweg {
 ReferencePoints read_reference(const SourceSpec& source, const CrsInfo& crs, const Plane& plane,
                                Progress& progress) {
   ReadResult read = read_survey(std::span(&source, 1), {}, {}, progress);
-  const bool same =
-      read.crs.name == crs.name && read.crs.vertical_metres_per_unit == crs.vertical_metres_per_unit;
+  const bool same = read.crs.vertical_metres_per_unit == crs.vertical_metres_per_unit &&
+                    means_same_crs(read.crs.wkt, crs.wkt);
   if (crs.known && read.crs.known && !same) {
     ReadOptions options;
     options.target_crs = crs.wkt;

@@ -115,8 +115,7 @@ std::vector<Finding> check_sources_of(const VerifyConfig& config, const TinFile&
   progress.start_phase("read sources");
   const ReadResult read_in = read_survey(config.points, config.lines, config.read, progress);
   const CrsInfo crs = describe_crs(file.crs);
-  if (crs.known && read_in.crs.known && crs.authority != read_in.crs.authority &&
-      crs.name != read_in.crs.name) {
+  if (crs.known && read_in.crs.known && !means_same_crs(crs.wkt, read_in.crs.wkt)) {
     throw Error(ErrorCode::BadCrs, "the sources are in " + read_in.crs.name + ", the TIN is in " + crs.name +
                                        "; give --s-crs, --t-crs or --a-crs as to build");
   }

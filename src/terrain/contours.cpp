@@ -15,8 +15,12 @@
 #include <thalweg/base/error.hpp>
 #include <thalweg/terrain/contours.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -153,6 +157,15 @@ class LevelTracer {
   std::vector<std::vector<PathPoint>> paths_;
 };
 
+/// The number of 15 digits that rounding in a product and a sum may have missed: 0.3, not 3 * 0.1.
+double nearest_decimal(double value) {
+  constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
+  const std::string text = fmt::format("{:.15g}", value);
+  double decimal = value;
+  std::from_chars(text.data(), text.data() + text.size(), decimal);
+  return std::abs(decimal - value) <= kRounding * std::abs(value) ? decimal : value;
+}
+
 }  // namespace
 
 std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& options, Progress& progress) {
@@ -170,16 +183,20 @@ std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& op
   }
   if (!any) return {};
   constexpr double kMostHeights = 1e6;
-  const double first = std::ceil((low - options.base) / options.interval);
-  const double last = std::floor((top - options.base) / options.interval);
+  const double first = std::ceil((low - options.base) / options.interval) - 1;
+  const double last = std::floor((top - options.base) / options.interval) + 1;
   if (!(last - first <= kMostHeights)) {
     throw Error(ErrorCode::Usage, "an interval of " + std::to_string(options.interval) +
                                       " gives more than a million contours; choose a larger one");
   }
-  const auto height_of = [&](std::size_t level) {
-    return options.base + (first + static_cast<double>(level)) * options.interval;
-  };
-  const std::size_t levels = last < first ? 0 : static_cast<std::size_t>(last - first) + 1;
+  // One more at both ends, because divisions are rounded.
+  std::vector<double> heights;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(last - first); ++i) {
+    const double height = nearest_decimal(options.base + (first + static_cast<double>(i)) * options.interval);
+    const bool is_new = heights.empty() || height > heights.back();
+    if (is_new && height >= low && height <= top) heights.push_back(height);
+  }
+  const std::size_t levels = heights.size();
 
   // Buckets: the rising halfedges of each height.
   std::vector<std::vector<HalfedgeId>> rising(levels);
@@ -189,18 +206,17 @@ std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& op
     const HalfedgeId h{i};
     const double from = tin.height(tin.origin(h)), to = tin.height(tin.target(h));
     if (!(from < to)) continue;
-    const double guess = std::floor((from - options.base) / options.interval) - first - 1;
-    for (std::size_t level = guess > 0 ? static_cast<std::size_t>(guess) : 0; level < levels; ++level) {
-      const double height = height_of(level);
-      if (height > to) break;
-      if (height > from) rising[level].push_back(h);
+    const auto above = std::upper_bound(heights.begin(), heights.end(), from);
+    for (auto level = static_cast<std::size_t>(above - heights.begin()); level < levels; ++level) {
+      if (heights[level] > to) break;
+      rising[level].push_back(h);
     }
   }
   std::vector<ContourLine> lines;
   std::vector<bool> done(tin.halfedge_count(), false);
   for (std::size_t level = 0; level < levels; ++level) {
     progress.advance(0.5 + 0.5 * static_cast<double>(level) / static_cast<double>(levels));
-    LevelTracer(tin, height_of(level), done).trace(rising[level], lines);
+    LevelTracer(tin, heights[level], done).trace(rising[level], lines);
   }
   return lines;
 }

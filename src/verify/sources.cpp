@@ -150,6 +150,8 @@ class SourceChecker {
   }
 
  private:
+  static constexpr double kMicrometre = 1e-6;
+
   [[nodiscard]] Point2 at(VertexId v) const { return subject_.points[v.index()]; }
   [[nodiscard]] Point2 end(Index edge, bool second) const {
     return at(second ? subject_.constraints[edge].b : subject_.constraints[edge].a);
@@ -220,6 +222,20 @@ class SourceChecker {
     return fmt::format("{} point {}", sources_.names[number], i - first[number] + 1);
   }
 
+  [[nodiscard]] bool is_within_error(double error) const {
+    return error <= *sources_.largest_error * (1 + 1e-9) + 1e-9;
+  }
+
+  /// Whether the report says that another height was used in place of this one, and the TIN is near to that.
+  [[nodiscard]] bool lost_a_conflict(Point2 p, double said, double height) const {
+    if (!sources_.conflicts) return false;
+    const double near = std::max(kMicrometre, sources_.snap + sources_.pixel);
+    return std::ranges::any_of(*sources_.conflicts, [&](const Conflict& c) {
+      return std::hypot(c.xy.x - p.x, c.xy.y - p.y) <= near && (c.z_a == said || c.z_b == said) &&
+             is_within_error(std::abs(c.z_used - height));
+    });
+  }
+
   Finding check_points() {
     Faults faults;
     std::set<Point2> off_surface;
@@ -234,7 +250,8 @@ class SourceChecker {
       } else if (const auto height = height_at(p)) {
         const double error = std::abs(*height - sources_.heights[i]);
         const bool levelled = sources_.largest_error && lakes_.hold(p);
-        if (levelled || (sources_.largest_error && error <= *sources_.largest_error * (1 + 1e-9) + 1e-9)) {
+        if (levelled || (sources_.largest_error && is_within_error(error)) ||
+            (sources_.largest_error && lost_a_conflict(p, sources_.heights[i], *height))) {
           ++near;
           continue;
         }
@@ -422,7 +439,6 @@ class SourceChecker {
   }
 
   Finding check_heights() {
-    constexpr double kMicrometre = 1e-6;
     Conflicts conflicts;
     for (std::size_t i = 0; sources_.conflicts && i < sources_.conflicts->size(); ++i) {
       const Conflict& conflict = (*sources_.conflicts)[i];

@@ -29,6 +29,8 @@ void add_examples(CLI::App& command, const std::string& lines);
 /// The progress of the running command: drawn on stderr if that is a terminal or --progress asks for it, and
 /// quiet is not set; cancelled by SIGINT and SIGTERM.
 Progress& progress_of(const Common& common);
+/// Before an error is printed: so that it begins a line of its own.
+void end_progress_line();
 
 /// Prints data to stdout whole. Throws: Error{WriteFailed} (a closed pipe, a full disk).
 void print(const std::string& text);

@@ -2,6 +2,8 @@
 // handler may not.
 #include "interrupt.hpp"
 
+#include "command.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/pending_outputs.hpp>
 
@@ -27,6 +29,7 @@ std::atomic<Progress*> watched = nullptr;
     stopped.cancel();
     stopped.check();
   } catch (const Error& error) {
+    end_progress_line();
     const std::string line = "ERROR " + std::string(error_name(error.code())) + ": " + error.what() + "\n";
     // Whether or not anyone reads it, the process ends.
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -33,19 +34,25 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kUsage = 2;
 
+std::atomic<bool> progress_line_is_open{false};
+
 /// Draws each phase as one line `read         0...10...20...100 - done.`
 class ProgressLine {
  public:
   void operator()(const std::string& phase, double fraction) {
     if (phase != phase_) {
-      if (!phase_.empty() && tick_ <= kTicks) std::fputc('\n', stderr);
+      end_progress_line();
+      progress_line_is_open = true;
       phase_ = phase;
       tick_ = 0;
       std::fputs(fmt::format("{:<12} ", phase).c_str(), stderr);
     }
     while (tick_ <= kTicks && fraction * kTicks >= tick_) {
       std::fputs(tick_ % 4 == 0 ? std::to_string(tick_ * 100 / kTicks).c_str() : ".", stderr);
-      if (tick_ == kTicks) std::fputs(" - done.\n", stderr);
+      if (tick_ == kTicks) {
+        std::fputs(" - done.\n", stderr);
+        progress_line_is_open = false;
+      }
       ++tick_;
     }
     std::fflush(stderr);
@@ -81,6 +88,7 @@ std::vector<std::string> normalise(int argc, char** argv) {
 }
 
 int fail(std::string_view code, std::string_view message, int status) {
+  end_progress_line();
   std::fputs(fmt::format("ERROR {}: {}\n", code, printable(message)).c_str(), stderr);
   return status;
 }
@@ -168,6 +176,10 @@ Progress& progress_of(const Common& common) {
   return *progress;
 }
 
+void end_progress_line() {
+  if (progress_line_is_open.exchange(false)) std::fputc('\n', stderr);
+}
+
 constexpr const char* kNoMemory = "the machine has not enough memory for this input; nothing was written";
 
 // Where memory ends within a library that lets no exception pass, nothing can be unwound.
@@ -176,9 +188,11 @@ constexpr const char* kNoMemory = "the machine has not enough memory for this in
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc&) {
+    end_progress_line();
     for (const char* part : {"ERROR out-of-memory: ", kNoMemory, "\n"}) std::fputs(part, stderr);
     ::_exit(kFailed);
   } catch (...) {
+    end_progress_line();
     std::fputs("ERROR internal: an error where none may pass; nothing was written\n", stderr);
   }
   std::abort();

@@ -30,13 +30,15 @@ struct RasterGrid {
 
 enum class RasterType : std::uint8_t { Byte, Float32, Float64 };
 
-/// A raster of one band. NaN is no data: written as 0 in bytes, as -9999 else.
+/// A raster of one band. NaN is no data: written as 0 in bytes, else as -9999, or, if that is a value, -99999
+/// and so on.
 struct RasterView {
   RasterGrid grid;
   std::span<const double> values;  ///< row by row from the north
   RasterType type = RasterType::Float32;
   std::string crs_wkt = {};
   std::string description = {};  ///< name of the band
+  double metres_per_unit = 0;    ///< of values that are lengths; 0: they are none
 };
 
 /// True if `format` (GDAL's short name), or the path's extension where it is empty, is a raster format that

@@ -66,10 +66,11 @@ right, none twice; a plateau has its rim for a contour."""
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         output = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
+        field = self.parameterAsString(parameters, "FIELD", context)
         run(["convert", self.mesh_path(parameters, "INPUT", context), output, "--overwrite", "--progress", "--contours",
              "--interval", repr(self.parameterAsDouble(parameters, "INTERVAL", context)),
              f"--base={self.parameterAsDouble(parameters, 'BASE', context)!r}",
-             "--field", self.parameterAsString(parameters, "FIELD", context)], feedback)
+             *(["--field", field] if field != "elev" else [])], feedback)  # DXF has no fields
         return {"OUTPUT": output}
 
 
