@@ -1,10 +1,8 @@
 // Inside and outside by flooding.
 //
-// 1. A membership is a bit pattern of 64: bit 0 is the parity of boundary rings; each area of holes (a
-// feature)
-//    has a pattern in the other bits that looks random, and a triangle has the exclusive or of those of the
-//    areas that it is in. If it is in none, these bits are 0; if it is in several, they would be 0 only by a
-//    coincidence of 63 bits. The patterns are the same in every run.
+// 1. Each area (a feature) has a pattern of 64 bits that looks random, and a triangle has the exclusive or of
+//    those of the areas that it is in, boundaries and holes apart. If it is in none, that is 0; if it is in
+//    several, it would be 0 only by a coincidence of 64 bits. The patterns are the same in every run.
 // 2. Rings are closed walks, so the exclusive or of the patterns that a path crosses depends only on its
 // ends:
 //    noding may bend a ring, or fold parts of it upon each other, which then cancel out.
@@ -25,8 +23,6 @@ namespace thalweg {
 
 namespace {
 
-constexpr std::uint64_t kBoundary = 1;
-
 bool is_ring(const SurveyLine& line) {
   return has(line.kind, EdgeKind::Boundary | EdgeKind::Hole);
 }
@@ -35,13 +31,14 @@ bool is_area(const SurveyLine& line) {
   return is_ring(line) || has(line.kind, EdgeKind::Lake);
 }
 
-std::uint64_t toggles_at(std::span<const RingEdge> edges, VertexId a, VertexId b) {
+Membership toggles_at(std::span<const RingEdge> edges, VertexId a, VertexId b) {
   const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(a.value(), b.value());
   const auto found =
       std::lower_bound(edges.begin(), edges.end(), key, [](const RingEdge& edge, const auto& k) {
         return std::tie(edge.low, edge.high) < std::tie(k.first, k.second);
       });
-  return found != edges.end() && found->low == key.first && found->high == key.second ? found->toggles : 0;
+  return found != edges.end() && found->low == key.first && found->high == key.second ? found->toggles
+                                                                                      : Membership{};
 }
 
 }  // namespace
@@ -73,11 +70,10 @@ std::vector<RingEdge> ring_edges(const Survey& survey, const Drawing& drawing) {
   for (std::size_t s = 0; s < drawing.pieces.size(); ++s) {
     const SurveyLine& line = survey.lines[drawing.pieces[s].line];
     if (!is_ring(line)) continue;
-    std::uint64_t toggles = has(line.kind, EdgeKind::Boundary) ? kBoundary : 0;
-    if (has(line.kind, EdgeKind::Hole)) {
-      const auto area = area_numbers.emplace(std::pair(line.source, line.feature), area_numbers.size()).first;
-      toggles |= splitmix64(area->second) & ~kBoundary;
-    }
+    const auto area = area_numbers.emplace(std::pair(line.source, line.feature), area_numbers.size()).first;
+    const std::uint64_t pattern = splitmix64(area->second);
+    const Membership toggles = {.boundaries = has(line.kind, EdgeKind::Boundary) ? pattern : 0,
+                                .holes = has(line.kind, EdgeKind::Hole) ? pattern : 0};
     const auto chain = drawing.noding.chain(s);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const auto [low, high] = std::minmax(chain[i], chain[i + 1]);
@@ -102,32 +98,33 @@ std::vector<RingEdge> ring_edges(const Survey& survey, const Drawing& drawing) {
 std::vector<bool> inside_region(const Survey& survey, const Tin& tin, std::span<const RingEdge> edges) {
   const bool bounded = std::any_of(survey.lines.begin(), survey.lines.end(),
                                    [](const SurveyLine& line) { return has(line.kind, EdgeKind::Boundary); });
-  std::vector<std::uint64_t> pattern(tin.triangle_count());
+  std::vector<Membership> areas(tin.triangle_count());
   std::vector<bool> reached(tin.triangle_count());
   std::vector<TriangleId> stack;
-  const auto reach = [&](TriangleId t, std::uint64_t from, HalfedgeId across) {
+  const auto reach = [&](TriangleId t, const Membership& from, HalfedgeId across) {
     if (reached[t.index()]) return;
     reached[t.index()] = true;
-    pattern[t.index()] =
-        tin.constrained(across) ? from ^ toggles_at(edges, tin.origin(across), tin.target(across)) : from;
+    areas[t.index()] = from;
+    if (tin.constrained(across)) {
+      areas[t.index()] ^= toggles_at(edges, tin.origin(across), tin.target(across));
+    }
     stack.push_back(t);
   };
   for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
     const HalfedgeId h{i};
-    if (tin.on_rim(h)) reach(Tin::triangle_of(h), 0, h);
+    if (tin.on_rim(h)) reach(Tin::triangle_of(h), {}, h);
   }
   while (!stack.empty()) {
     const TriangleId t = stack.back();
     stack.pop_back();
     for (std::size_t side = 0; side < 3; ++side) {
       const HalfedgeId h = Tin::halfedge(t, side);
-      if (!tin.on_rim(h)) reach(Tin::triangle_of(tin.twin(h)), pattern[t.index()], h);
+      if (!tin.on_rim(h)) reach(Tin::triangle_of(tin.twin(h)), areas[t.index()], h);
     }
   }
-  std::vector<bool> inside(pattern.size());
+  std::vector<bool> inside(areas.size());
   for (std::size_t t = 0; t < inside.size(); ++t) {
-    const bool in_boundary = !bounded || (pattern[t] & kBoundary) != 0;
-    inside[t] = in_boundary && (pattern[t] & ~kBoundary) == 0;
+    inside[t] = (!bounded || areas[t].boundaries != 0) && areas[t].holes == 0;
   }
   return inside;
 }

@@ -66,12 +66,17 @@ std::vector<Quadrilateral> on_surface(std::vector<Quadrilateral> found, const Te
 
 // Under Std constraint edges give the constrained Delaunay triangulation an order of its own, and up to 1 no
 // triangulation has a lower one: what is asked for may not exist.
-std::uint32_t delaunay_order(const Terrain& terrain, const LabellingConfig& labelling, Progress& progress) {
-  if (labelling.definition != OrderDefinition::Std || labelling.order > 1) return 0;
+std::vector<Triangle> find_of_order_1(const Terrain& terrain, const LabellingConfig& labelling,
+                                      Progress& progress) {
+  if (labelling.definition != OrderDefinition::Std || labelling.order > 1) return {};
   const TinOrders orders =
       find_tin_orders(terrain.ground, {.definition = OrderDefinition::Std, .mode = terrain.mode}, progress);
-  if (orders.max_order <= labelling.order) return orders.max_order;
-  throw no_triangulation(terrain, labelling, progress);
+  if (orders.max_order > labelling.order) throw no_triangulation(terrain, labelling, progress);
+  std::vector<Triangle> found;  // in order, as those of a TIN are
+  for (std::size_t t = 0; t < orders.orders.size(); ++t) {
+    if (orders.orders[t] == 1 && terrain.keep[t]) found.push_back(terrain.ground.triangle(TriangleId{t}));
+  }
+  return found;
 }
 
 void choose_first_order(Labelled& labelled, const Terrain& terrain, const RunContext& run,
@@ -126,7 +131,7 @@ void condition(Labelled& labelled, const Tin& triangulation, const RunContext& r
 
 /// What may be chosen from. Takes the ground out of the terrain.
 SurfaceFaces find_structure(Labelled& labelled, Terrain& terrain, const RunContext& run, Progress& progress) {
-  labelled.delaunay_order = delaunay_order(terrain, run.labelling, progress);
+  labelled.of_order_1 = find_of_order_1(terrain, run.labelling, progress);
   if (run.labelling.by_faces()) {
     labelled.delaunay = keep_triangles(terrain.ground, terrain.keep);
     SurfaceFaces faces = find_surface_faces(terrain, labelled.delaunay, run.labelling, progress);

@@ -18,7 +18,7 @@ namespace thalweg {
 /// The optimised TIN and what it came from.
 struct Labelled {
   Tin delaunay;
-  std::uint32_t delaunay_order = 0;  ///< largest order of its triangles
+  std::vector<Triangle> of_order_1;  ///< its triangles that have that order, sorted; others have 0
   std::vector<Quadrilateral> quadrilaterals;
   std::unique_ptr<const Reference> reference;
   OptimizeOptions options;

@@ -260,7 +260,7 @@ PitSummary describe_result(const Labelled& labelled, const Terrain& terrain, con
   tin.dropped_rim_triangles = report.tin.dropped_rim_triangles;
   tin.vertices_left_out = report.tin.vertices_left_out;
   tin.angle_histogram_delaunay = report.tin.angle_histogram_delaunay;
-  tin.max_order = std::max<unsigned>(labelled.delaunay_order, labelled.new_diagonals.empty() ? 0 : 1);
+  tin.max_order = labelled.of_order_1.empty() && labelled.new_diagonals.empty() ? 0 : 1;
   if (labelled.higher_order) {
     tin.max_order = *std::max_element(labelled.orders.begin(), labelled.orders.end());
   }
@@ -301,8 +301,12 @@ struct Outcome {
   std::vector<std::array<VertexId, 2>> new_diagonals;
 };
 
-std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const HalfedgeId> new_diagonals) {
+std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const HalfedgeId> new_diagonals,
+                                     std::span<const Triangle> of_order_1) {
   std::vector<std::uint16_t> orders(tin.triangle_count(), 0);
+  for (std::size_t t = 0; !of_order_1.empty() && t < orders.size(); ++t) {
+    orders[t] = std::ranges::binary_search(of_order_1, tin.triangle(TriangleId{t})) ? 1 : 0;
+  }
   for (const HalfedgeId diagonal : new_diagonals) {
     for (const HalfedgeId h : {diagonal, tin.twin(diagonal)}) orders[Tin::triangle_of(h).index()] = 1;
   }
@@ -311,8 +315,9 @@ std::vector<std::uint16_t> orders_of(const Tin& tin, std::span<const HalfedgeId>
 
 Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t> pits_before,
                    PitSummary after, const Progress& progress) {
-  std::vector<std::uint16_t> orders =
-      labelled.higher_order ? std::move(labelled.orders) : orders_of(labelled.tin, labelled.flips);
+  std::vector<std::uint16_t> orders = labelled.higher_order
+                                          ? std::move(labelled.orders)
+                                          : orders_of(labelled.tin, labelled.flips, labelled.of_order_1);
   Outcome outcome{.built = {.tin = std::move(labelled.tin),
                             .written = std::move(terrain.written),
                             .vertex_source = std::move(terrain.vertex_source),

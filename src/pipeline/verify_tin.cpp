@@ -17,6 +17,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thalweg {
 
@@ -65,6 +66,9 @@ verify::Claims read_claims(const Json& report) {
   claims.quadrilaterals = read<std::size_t>(report, "/first_order/quadrilaterals");
   claims.barred = read<std::size_t>(report, "/simplification/barred_diagonals").value_or(0);
   claims.flipped = read<std::size_t>(report, "/first_order/flipped");
+  claims.max_order = read<std::size_t>(report, "/tin/max_order");
+  claims.order_histogram = read<std::vector<std::size_t>>(report, "/higher_order/order_histogram")
+                               .value_or(claims.order_histogram);
   for (const Json& c : report.value("criteria", Json::array())) {
     claims.criteria.push_back({.name = c.at("name").get<std::string>(),
                                .delaunay = c.at("delaunay").get<double>(),
@@ -160,6 +164,7 @@ VerifyResult verify_tin(const VerifyConfig& config, Progress& progress) {
     ReferencePoints reference;
     if (config.reference) reference = read_reference(*config.reference, crs, plane, progress);
     verify::Claims claims = report ? read_claims(*report) : verify::Claims();
+    if (report) claims.orders = file.triangle_orders;  // under the definition that the report names
     const auto against_reference = [](const auto& claim) { return claim.name == "vertical-error"; };
     if (config.reference && std::none_of(claims.criteria.begin(), claims.criteria.end(), against_reference)) {
       throw Error(ErrorCode::Usage,

@@ -19,9 +19,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <set>
+#include <span>
 
 namespace thalweg::verify {
 
@@ -158,22 +158,46 @@ class Checker {
                  "pathcon is counted only where the TIN is a polygon or has one rim");
       return;
     }
-    std::atomic<std::size_t> first{mesh_.triangles.size()};
-    for_each_block(mesh_.triangles.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
+    std::vector<unsigned> found(mesh_.triangles.size());  // beyond what is allowed: one more
+    for_each_block(found.size(), kBlock, progress_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
-        if (orders.at_most(mesh_.triangles[t], subject_.order)) continue;
-        std::size_t known = first.load();
-        while (t < known && !first.compare_exchange_weak(known, t)) continue;
-        return;
+        while (found[t] <= subject_.order && !orders.at_most(mesh_.triangles[t], found[t])) ++found[t];
       }
     });
+    const auto high = std::ranges::find_if(found, [&](unsigned order) { return order > subject_.order; });
     std::optional<std::string> fault;
-    if (first < mesh_.triangles.size()) {
-      const Corners& t = mesh_.triangles[first];
+    if (high != found.end()) {
+      const Corners& t = mesh_.triangles[static_cast<std::size_t>(high - found.begin())];
       fault =
           fmt::format("triangle {}-{}-{} has order {}", t[0], t[1], t[2], orders.count(t, mesh_.xy.size()));
     }
     table_.add_fault(claim, fault);
+    if (!fault) check_told_orders(found);
+  }
+
+  /// What the mesh and the report say of the orders of single triangles.
+  void check_told_orders(std::span<const unsigned> found) {
+    table_.add_count("largest order", claims_.max_order, std::ranges::max(found));
+    if (!claims_.orders.empty()) {
+      std::optional<std::string> fault;
+      for (std::size_t t = found.size(); t-- > 0;) {
+        const Corners& c = mesh_.triangles[t];
+        if (claims_.orders[t] == found[t]) continue;
+        fault = fmt::format("triangle {}-{}-{} has order {}, the mesh says {}", c[0], c[1], c[2], found[t],
+                            claims_.orders[t]);
+      }
+      table_.add_fault("the orders that the mesh gives its triangles", fault);
+    }
+    if (!claims_.order_histogram.empty()) {
+      std::vector<std::size_t> histogram(claims_.order_histogram.size());
+      for (const unsigned order : found) {
+        histogram.resize(std::max<std::size_t>(histogram.size(), order + 1));
+        ++histogram[order];
+      }
+      const bool equal = histogram == claims_.order_histogram;
+      table_.add("triangles by order", equal ? Verdict::Holds : Verdict::Broken,
+                 fmt::format("{}{}", equal ? "" : "found ", fmt::join(histogram, " ")));
+    }
   }
 
   void check_structure() {

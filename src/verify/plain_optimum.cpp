@@ -28,6 +28,19 @@ namespace {
 constexpr std::size_t kWidthLimit = 20;
 constexpr long double kSteps = 0x1p32L;
 
+/// Whether a claim cannot hold whatever the terrain; says so in the finding.
+bool contradicts_itself(const CriterionClaim& claim, const std::optional<PlainCriterion>& criterion,
+                        Finding& finding) {
+  const double sign = criterion && criterion->maximised ? -1 : 1;
+  const bool beyond = criterion && sign * claim.bound > sign * claim.result;
+  if (!beyond && !(claim.optimal && claim.bound != claim.result)) return false;
+  finding.verdict = Verdict::Broken;
+  finding.detail =
+      fmt::format("{}, but the bound is {:.17g}, the result {:.17g}",
+                  claim.optimal ? "called optimal" : "a bound bounds the result", claim.bound, claim.result);
+  return true;
+}
+
 class BoundChecker {
  public:
   BoundChecker(const PlainProblem& problem, std::span<const CriterionClaim> claims, const Proof* proof,
@@ -42,12 +55,7 @@ class BoundChecker {
   Finding check(const CriterionClaim& claim) {
     Finding finding{claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked, {}};
     const auto criterion = plain_criterion(claim.name, problem_.reference);
-    if (claim.optimal && claim.bound != claim.result) {
-      finding.verdict = Verdict::Broken;
-      finding.detail = fmt::format("called optimal, but the bound is {:.17g}, the result {:.17g}",
-                                   claim.bound, claim.result);
-      return finding;
-    }
+    if (contradicts_itself(claim, criterion, finding)) return finding;
     if (!reason_.empty()) {
       finding.detail = reason_;
       return finding;
@@ -320,8 +328,10 @@ std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const C
   if (claims.empty()) return findings;
   if (!problem.structure_known || overlapping(problem)) {
     for (const CriterionClaim& claim : claims) {
-      findings.push_back({claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked,
-                          "only for order 0 and 1, and quadrilaterals that do not overlap"});
+      Finding& finding =
+          findings.emplace_back(claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked,
+                                "only for order 0 and 1, and quadrilaterals that do not overlap");
+      contradicts_itself(claim, plain_criterion(claim.name, problem.reference), finding);
     }
     return findings;
   }

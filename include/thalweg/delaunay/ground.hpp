@@ -73,9 +73,9 @@ struct Ground {
 
 /// Builds the ground of a survey. Lines with heights are hard: theirs beat those of points. Lines without are
 /// soft: new vertices of theirs get the height of the Delaunay ground of all points and hard lines.
-/// Lines of kind Boundary are closed rings; inside is what an odd number of them surrounds. Lines of kind
-/// Hole are the rings of areas, one area a feature; what any of these surrounds is cut out. Lines
-/// of kind Lake are the rings of lakes, one lake a feature: all vertices in it, shore included, get one
+/// Lines of kind Boundary are closed rings; inside is what an odd number of those of a feature surrounds.
+/// Lines of kind Hole are the rings of areas, one area a feature; what any of these surrounds is cut out.
+/// Lines of kind Lake are the rings of lakes, one lake a feature: all vertices in it, shore included, get one
 /// height: the lowest that its rings have, else the lowest of the vertices on its shore. Throws:
 /// Error{BadCoordinate} not finite or beyond 1e15; {TooFewPoints}, {Collinear} no triangle exists;
 /// {CrossingLines} under CrossingRule::Error; {OutsideHull} a soft vertex outside of that ground;

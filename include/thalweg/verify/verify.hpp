@@ -41,6 +41,9 @@ struct Claims {
   std::optional<std::size_t> quadrilaterals, flipped;
   /// First-order quadrilaterals that were kept out for the sake of source points; not in `quadrilaterals`.
   std::size_t barred = 0;
+  std::vector<std::uint16_t> orders;  ///< of the triangles; empty: nothing is said
+  std::optional<std::size_t> max_order;
+  std::vector<std::size_t> order_histogram;  ///< triangles of order 0, 1, ...; empty: nothing is said
   std::vector<CriterionClaim> criteria;
   std::optional<PitsClaim> pits_delaunay, pits_result;
   std::optional<Proof> proof;  ///< of the criteria's bounds

@@ -345,6 +345,22 @@ TEST(Ground, SoftVertexOutsideTheHullIsNamed) {
   EXPECT_FALSE(failure_of(survey)) << "hard lines enlarge the hull";
 }
 
+TEST(Ground, BoundariesThatOverlapAreOne) {
+  std::vector<Point3> points;
+  for (int y = 0; y <= 10; ++y) {
+    for (int x = 0; x <= 10; ++x) points.push_back({x * 1.0, y * 1.0, 3});
+  }
+  Survey survey = make_survey(points);
+  const std::vector<Point2> ring = {{1, 1}, {6, 1}, {6, 5}, {1, 5}, {1, 1}};
+  add_soft(survey, ring, EdgeKind::Boundary);
+  add_soft(survey, {{5, 1}, {9, 1}, {9, 5}, {5, 5}, {5, 1}}, EdgeKind::Boundary);
+  add_soft(survey, {{2, 2}, {3, 2}, {3, 3}, {2, 3}, {2, 2}}, EdgeKind::Boundary);
+  add_soft(survey, ring, EdgeKind::Boundary);
+  const Ground ground = build(survey);
+  EXPECT_EQ(ground.tin.vertex_count(), 9U * 5U);
+  EXPECT_EQ(ground.tin.triangle_count(), 2U * 8U * 4U);
+}
+
 TEST(Ground, BoundaryDropsWhatIsOutside) {
   std::vector<Point3> points;
   for (int y = 0; y <= 10; ++y) {
@@ -353,6 +369,7 @@ TEST(Ground, BoundaryDropsWhatIsOutside) {
   Survey survey = make_survey(points);
   add_soft(survey, {{2, 2}, {8, 2}, {8, 8}, {2, 8}, {2, 2}}, EdgeKind::Boundary);
   add_soft(survey, {{4.5, 4.5}, {4.5, 5.5}, {5.5, 5.5}, {5.5, 4.5}, {4.5, 4.5}}, EdgeKind::Boundary);
+  survey.lines[1].feature = survey.lines[0].feature;  // an inner ring
   add_soft(survey, {{0, 3}, {10, 3}}, EdgeKind::Valley);
   const Ground ground = build(survey);
   EXPECT_EQ(ground.mode, GroundMode::Polygon);

@@ -70,7 +70,10 @@ TEST_F(ReadRaster, HonoursScaleOffsetUnitMaskAndBands) {
   const std::string north_up = "0, 1, 0, 2, 0, -1";
   EXPECT_THAT(read({write_vrt(north_up, "<Offset>100</Offset><Scale>0.5</Scale>")}).survey.points.z,
               ElementsAre(100.5, 101, 101.5, 102));
-  EXPECT_EQ(read({write_vrt(north_up, "<UnitType>ft</UnitType>")}).crs.vertical_metres_per_unit, 0.3048);
+  const ReadResult feet = read({write_vrt(north_up, "<UnitType>ft</UnitType>")});
+  EXPECT_EQ(feet.crs.vertical_metres_per_unit, 1) << "without a CRS nothing could tell feet";
+  EXPECT_THAT(feet.survey.points.z, ElementsAre(0.3048, 2 * 0.3048, 3 * 0.3048, 4 * 0.3048));
+  EXPECT_TRUE(has_note(feet, "are brought from units of 0.3048 m to units of 1 m"));
   const ReadResult nodata = read({write_vrt(north_up, "<NoDataValue>3</NoDataValue>")});
   EXPECT_THAT(nodata.survey.points.z, ElementsAre(1, 2, 4));
   EXPECT_EQ(nodata.nodata_skipped, 1U);

@@ -60,11 +60,12 @@ class ThalwegAlgorithm(QgsProcessingAlgorithm):
         self.addParameter(parameter)
 
     def source(self, layer, context, feedback):
-        """A layer as a source of the program: PATH or PATH|layername=NAME; exported where it is no file."""
+        """A layer as a source of the program: PATH or PATH|layername=NAME; exported where it is no file, or has got
+        another CRS in QGIS."""
         if not isinstance(layer, QgsVectorLayer):
             return layer.source()
         path, name = QgsProcessingUtils.convertToCompatibleFormatAndLayerName(
-            layer, False, "source", _FORMATS, "gpkg", context, feedback)
+            layer, False, "source", _FORMATS if layer.crs() == layer.dataProvider().crs() else [], "gpkg", context, feedback)
         return f"{path}|layername={name}" if name else path
 
     def mesh_path(self, parameters, name, context):
