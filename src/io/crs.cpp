@@ -110,7 +110,10 @@ OGRSpatialReference parse_reference(const std::string& definition) {
 bool means_same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b) {
   const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
                                  "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-  return a.IsSame(&b, options) != 0;
+  if (a.IsSame(&b, options) != 0) return true;
+  // Esri's dialect does not tell the order of a projected CRS's axes.
+  const std::string authority = authority_of(a);
+  return !authority.empty() && authority == authority_of(b);
 }
 
 bool means_same_crs(const std::string& a, const std::string& b) {

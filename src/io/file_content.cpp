@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 namespace thalweg {
@@ -24,7 +25,10 @@ using FileHandle = std::unique_ptr<VSILFILE, CloseFile>;
 FileHandle open_file(const std::string& path) {
   VSIStatBufL status;
   if (VSIStatL(path.c_str(), &status) != 0) {
-    throw Error(ErrorCode::NotFound, path + ": there is no such file; check the path");
+    const bool layer = path.find("|layername=") != std::string::npos;
+    throw Error(ErrorCode::NotFound,
+                path + (layer ? ": a TIN is all layers of its file; leave |layername= away"
+                              : ": there is no such file; check the path"));
   }
   if (VSI_ISDIR(status.st_mode)) {
     throw Error(ErrorCode::Unreadable, path + ": is a folder; name the file in it");
@@ -88,6 +92,18 @@ std::string read_prj_sidecar(const std::string& path) {
   const std::string sidecar = sidecar_path(path);
   if (VSIStatL(sidecar.c_str(), &status) != 0 || VSI_ISDIR(status.st_mode)) return {};
   return std::string(trimmed(read_head(sidecar, kLongest)));
+}
+
+void refuse_shared_prj(const std::string& prj, const std::string& target) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(prj)) return;
+  for (const char* extension : {".shp", ".csv", ".xyz", ".txt", ".asc", ".bil", ".flt", ".2dm", ".obj",
+                                ".off", ".stl", ".glb", ".vtu"}) {
+    const fs::path other = fs::path(prj).replace_extension(extension);
+    if (other == fs::path(target) || !fs::exists(other)) continue;
+    throw Error(ErrorCode::Usage, prj + ": is the CRS of " + other.string() + ", and not that of " + target +
+                                      "; give the output another name");
+  }
 }
 
 std::string_view TextScanner::take_word() {

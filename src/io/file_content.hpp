@@ -30,6 +30,9 @@ std::string read_head(const std::string& path, std::size_t most);
 
 /// The trimmed content of the file beside `path` that ends in .prj, or empty.
 std::string read_prj_sidecar(const std::string& path);
+/// Before the NAME.prj of an output is replaced or removed. Throws: Error{Usage} if another file that has its
+/// CRS from there lies beside it.
+void refuse_shared_prj(const std::string& prj, const std::string& target);
 
 /// Reads words and numbers off a text, and knows the line for its errors.
 class TextScanner {

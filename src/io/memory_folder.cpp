@@ -90,9 +90,13 @@ void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, 
         means_same_crs(read_prj_sidecar(beside), read_prj_sidecar(from))) {
       continue;  // of another format of the same name
     }
+    if (mode == Overwrite::Yes && from.ends_with(".prj")) refuse_shared_prj(beside, target_);
     copy_out(from, pending.add(beside, mode), beside);
   }
-  for (const std::string& file : stale) pending.remove_stale(file, mode);
+  for (const std::string& file : stale) {
+    if (mode == Overwrite::Yes && file.ends_with(".prj")) refuse_shared_prj(file, target_);
+    pending.remove_stale(file, mode);
+  }
 }
 
 }  // namespace thalweg

@@ -157,14 +157,6 @@ bool abandon_pending_outputs() noexcept {
   return true;
 }
 
-bool PendingOutputs::is_of_source(const std::string& target) const {
-  return std::ranges::any_of(sources_, [&](const std::string& source) {
-    std::error_code not_there;
-    return fs::equivalent(target, source, not_there) ||
-           fs::equivalent(target, fs::path(source).replace_extension(".prj"), not_there);
-  });
-}
-
 PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Overwrite mode) const {
   if (target.empty()) throw Error(ErrorCode::Usage, "the name of an output is empty; give a path");
   if (target == "-") {
@@ -191,7 +183,8 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
     throw exists_already(target);
   }
   if (fs::exists(status)) refuse_open_database(path.string());
-  if (is_of_source(target)) {
+  for (const std::string& source : sources_) {
+    if (!fs::equivalent(target, source, ignored)) continue;
     throw Error(ErrorCode::Usage, target + ": is a source, and would be lost; give the output another name");
   }
   return {path.string(), unused_path(path).string(), mode};
@@ -229,11 +222,6 @@ void PendingOutputs::remove_stale(const std::string& target, Overwrite mode) {
                 target +
                     ": would be taken for a part of the output; move it away, choose "
                     "another name, or remove it with --overwrite");
-  }
-  if (is_of_source(target)) {
-    throw Error(ErrorCode::Usage, target +
-                                      ": belongs to a source, but would be taken for a part of the output; " +
-                                      "give that another name");
   }
   stale_.push_back(target);
 }

@@ -2,14 +2,16 @@
 //
 // Node ids of 2DM are any ascending positive numbers, elements may stand before the nodes: ids are turned
 // into indices at the end. OBJ counts vertices from 1, or backwards from the last one read (-1). Constraint
-// edges are the node strings or line elements whose name is a kind, as `write_tin` writes them; other ones
-// are boundary conditions or drawings of their own and are left out.
+// edges are the node strings or line elements, of the kind that their name is, as `write_tin` writes them.
+// Those with other names are breaklines where they run along edges; elsewhere they are drawings of their own.
 #include "io/edge_chains.hpp"
 #include "io/file_content.hpp"
 #include "io/tin_format.hpp"
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -47,6 +49,25 @@ class MeshScanner {
     }
   }
 
+  /// Of constraints without a kind, edges of triangles become breaklines, others go. Pre: ids are indices.
+  void settle_foreign_lines() {
+    using Edge = std::pair<VertexId, VertexId>;
+    const auto key = [](VertexId a, VertexId b) -> Edge { return std::minmax(a, b); };
+    std::vector<Edge> edges;
+    const auto is_foreign = [](const ConstraintEdge& edge) { return edge.kind == EdgeKind::None; };
+    if (std::ranges::none_of(tin_.constraints, is_foreign)) return;
+    for (const Triangle& t : tin_.triangles) {
+      for (std::size_t side = 0; side < 3; ++side) edges.emplace_back(key(t[side], t[(side + 1) % 3]));
+    }
+    std::ranges::sort(edges);
+    std::erase_if(tin_.constraints, [&](const ConstraintEdge& edge) {
+      return is_foreign(edge) && !std::ranges::binary_search(edges, key(edge.a, edge.b));
+    });
+    for (ConstraintEdge& edge : tin_.constraints) {
+      if (is_foreign(edge)) edge.kind = EdgeKind::Breakline;
+    }
+  }
+
   TextScanner scanner_;
   const std::string& file_;
   Progress& progress_;
@@ -61,6 +82,7 @@ class Reader2dm : MeshScanner {
     for_each_line([&](std::string_view card) { read_card(card); });
     if (!string_.empty()) scanner_.fail(ErrorCode::BadFormat, "the last node string (NS) has no end");
     resolve_ids();
+    settle_foreign_lines();
     return std::move(tin_);
   }
 
@@ -110,7 +132,7 @@ class Reader2dm : MeshScanner {
     }
     std::string_view name;
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word()) name = word;
-    if (const std::optional<EdgeKind> kind = parse_kind_words(name)) add_line(string_, *kind);
+    add_line(string_, parse_kind_words(name).value_or(EdgeKind::None));
     string_.clear();
   }
 
@@ -150,6 +172,7 @@ class ObjReader : MeshScanner {
   TinFile read() {
     for_each_line([&](std::string_view keyword) { read_statement(keyword); });
     check_ids();
+    settle_foreign_lines();
     return std::move(tin_);
   }
 
@@ -209,7 +232,7 @@ class ObjReader : MeshScanner {
     std::vector<VertexId> line;
     for (std::string_view word = scanner_.word(); !word.empty(); word = scanner_.word())
       line.push_back(corner(word));
-    if (is_constraint(group_)) add_line(line, group_);
+    add_line(line, group_);
   }
 
   void check_ids() const {

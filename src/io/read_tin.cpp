@@ -2,7 +2,10 @@
 #include "io/file_content.hpp"
 #include "io/tin_format.hpp"
 
+#include <thalweg/geometry/predicates.hpp>
+
 #include <algorithm>
+#include <utility>
 
 namespace thalweg {
 
@@ -24,6 +27,15 @@ void check_not_empty(const TinFile& tin, const std::string& path) {
   }
 }
 
+/// Where the convention is that faces are seen from below, all are turned.
+void turn_if_clockwise(TinFile& tin) {
+  const auto is_clockwise = [&](const Triangle& t) {
+    return orientation(tin.points[t[0].index()], tin.points[t[1].index()], tin.points[t[2].index()]) < 0;
+  };
+  if (!std::ranges::all_of(tin.triangles, is_clockwise)) return;
+  for (Triangle& t : tin.triangles) std::swap(t[1], t[2]);
+}
+
 }  // namespace
 
 TinFile read_tin(const std::string& path, Progress& progress) {
@@ -34,6 +46,7 @@ TinFile read_tin(const std::string& path, Progress& progress) {
     progress.start_phase("read " + format.info.name);
     TinFile tin = format.read(path, progress);
     check_not_empty(tin, path);
+    turn_if_clockwise(tin);
     if (tin.crs.empty() && format.crs == TinFormat::Crs::InSidecar) tin.crs = read_prj_sidecar(path);
     progress.advance(1);
     return tin;

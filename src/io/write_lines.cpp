@@ -12,6 +12,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace thalweg {
 
@@ -88,6 +90,12 @@ void write_level_lines(const std::string& path, const LineLayerView& view, const
   if (driver == nullptr) {
     throw Error(ErrorCode::Usage,
                 path + ": no vector format that this GDAL writes; name one with --of (ogrinfo --formats)");
+  }
+  const std::string_view name = driver->GetDescription();
+  if (view.crs_wkt.empty() && (name == "KML" || name == "LIBKML" || name == "GPX")) {
+    throw Error(ErrorCode::BadCrs, path + ": " + std::string(name) +
+                                       " holds longitudes and latitudes, but the " +
+                                       "CRS of the TIN is unknown; give it one (build --a-crs)");
   }
   const DriverOptions creation = sort_options(*driver, options.creation_options, DriverUse::Vector);
   progress.start_phase(std::string("write ") + driver->GetDescription());

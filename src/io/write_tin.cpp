@@ -86,14 +86,19 @@ std::string prj_text(const std::string& definition) {
   return wkt.empty() ? export_wkt(reference, "FORMAT=WKT2_2019") : wkt;
 }
 
-void write_sidecar(const std::string& path, const TinView& view, PendingOutputs& pending, Overwrite mode) {
+void write_sidecar(const std::string& path, const std::string& target, const TinView& view,
+                   PendingOutputs& pending, Overwrite mode) {
   const std::string& definition = view.crs_wkt.empty() ? view.crs_authority : view.crs_wkt;
+  const std::string text = definition.empty() ? std::string() : prj_text(definition);
+  if (!text.empty() && std::filesystem::is_regular_file(path) &&
+      means_same_crs(read_prj_sidecar(path), text)) {
+    return;
+  }
+  if (mode == Overwrite::Yes) refuse_shared_prj(path, target);
   if (definition.empty()) {
     pending.remove_stale(path, mode);
     return;
   }
-  const std::string text = prj_text(definition);
-  if (std::filesystem::is_regular_file(path) && means_same_crs(read_prj_sidecar(path), text)) return;
   FileWriter file(pending.add(path, mode), path);
   file.text(text + "\n");
   file.close();
@@ -113,7 +118,7 @@ void write_tin(const std::string& path, const TinView& view, const WriteOptions&
   const CreationOptions creation(options.creation_options, format.info);
   progress.start_phase("write " + format.info.name);
   const std::string written = pending.add(path, mode);
-  if (format.crs == TinFormat::Crs::InSidecar) write_sidecar(sidecar_path(path), view, pending, mode);
+  if (format.crs == TinFormat::Crs::InSidecar) write_sidecar(sidecar_path(path), path, view, pending, mode);
   LocalOrigin origin;
   if (format.numbers != TinFormat::Numbers::Double) {
     origin = choose_origin(view.written_xy.empty() ? view.tin.points() : view.written_xy, view.tin.heights());

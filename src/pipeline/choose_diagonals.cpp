@@ -172,10 +172,6 @@ Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds&
                 "--proof is written for orders 0 and 1 only, under definitions up to sees-opp, and with "
                 "--method exact");
   }
-  if (std::find(terrain.keep.begin(), terrain.keep.end(), true) == terrain.keep.end()) {
-    throw Error(ErrorCode::EmptyInput,
-                "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
-  }
   seconds.triangulate += run.watch.lap();
 
   progress.start_phase("orders");

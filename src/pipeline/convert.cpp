@@ -5,6 +5,7 @@
 // 2. Mesh and layers: written as they are. Orders follow their triangles, which a Tin sorts.
 // 3. Raster: strips of rows; each cell centre goes to the plane and is sampled there.
 // 4. Contours: traced in the plane, written in the TIN's coordinates. Profiles likewise.
+#include "base/printable.hpp"
 #include "pipeline/loaded_tin.hpp"
 #include "pipeline/profile.hpp"
 
@@ -18,7 +19,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <utility>
@@ -80,7 +83,7 @@ std::size_t cell_count(double length, double cell) {
   return static_cast<std::size_t>(std::max(1.0, std::floor(length / cell + kSlack)));
 }
 
-RasterGrid make_grid(const RasterConfig& raster, const Source& source) {
+RasterGrid make_grid(const RasterConfig& raster, const Source& source, std::vector<std::string>& notes) {
   constexpr double kMostCells = 2e9;
   if (!(raster.resolution > 0) || !std::isfinite(raster.resolution)) {
     throw Error(ErrorCode::Usage,
@@ -105,7 +108,17 @@ RasterGrid make_grid(const RasterConfig& raster, const Source& source) {
     throw Error(ErrorCode::SizeLimit,
                 "the raster would have more than 2e9 cells; choose a larger --resolution");
   }
-  return {box.x_min, box.y_max, cell, cell_count(box.width(), cell), cell_count(box.height(), cell)};
+  const RasterGrid grid{box.x_min, box.y_max, cell, cell_count(box.width(), cell),
+                        cell_count(box.height(), cell)};
+  const double east = box.width() - static_cast<double>(grid.columns) * cell,
+               south = box.height() - static_cast<double>(grid.rows) * cell;
+  if (raster.extent && std::max(std::abs(east), std::abs(south)) > 1e-6 * cell) {
+    notes.push_back(
+        fmt::format("the extent holds no whole number of cells: {:.6g} in the east and {:.6g} in the "
+                    "south are left out",
+                    east, south));
+  }
+  return grid;
 }
 
 const char* band_name(SurfaceValue value) {
@@ -123,7 +136,7 @@ const char* band_name(SurfaceValue value) {
 }
 
 void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& result) {
-  const RasterGrid grid = make_grid(raster, job.source);
+  const RasterGrid grid = make_grid(raster, job.source, result.notes);
   const Plane& plane = job.source.loaded.plane;
   const SurfaceSampler sampler(job.source.loaded.tin, plane.scale());
   job.progress.start_phase("sample");
@@ -220,6 +233,17 @@ ConvertResult::Kind kind_of(const ConvertConfig& config) {
                                     "(gdalinfo --formats); give another extension or --of NAME");
 }
 
+/// GeoJSON cannot say that the CRS is unknown.
+void note_false_crs(const ConvertConfig& config, const CrsInfo& crs, ConvertResult& result) {
+  std::string format =
+      config.format.empty() ? std::filesystem::path(config.output).extension().string() : config.format;
+  std::ranges::transform(format, format.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (crs.known || (format.find("json") == std::string::npos)) return;
+  result.notes.push_back(config.output +
+                         ": the CRS is unknown, but whoever reads GeoJSON takes it for longitude " +
+                         "and latitude; give the TIN a CRS (build --a-crs), or write another format");
+}
+
 }  // namespace
 
 ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
@@ -245,6 +269,7 @@ ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
       write_profile(job, *config.profile, result);
       break;
   }
+  note_false_crs(config, source.loaded.crs, result);
   progress.advance(1);
   if (config.announce) config.announce(result);
   outputs.commit();
@@ -262,20 +287,24 @@ std::string to_json(const ConvertResult& result) {
   if (result.kind == ConvertResult::Kind::Profile) {
     json["profile"] = {{"lines", result.lines}, {"rows", result.profile_rows}};
   }
+  json["notes"] = result.notes;
   return json.dump(2) + "\n";
 }
 
 std::string to_text(const ConvertResult& result) {
+  std::string notes;
+  for (const std::string& note : result.notes) notes += fmt::format("Note: {}\n", printable(note));
   const std::string tin = fmt::format("{} vertices, {} triangles", result.vertices, result.triangles);
   if (result.kind == ConvertResult::Kind::Raster) {
-    return fmt::format("{}: {} x {} cells, {} of them without data\n", tin, result.columns, result.rows,
-                       result.cells_without_data);
+    return fmt::format("{}: {} x {} cells, {} of them without data\n{}", tin, result.columns, result.rows,
+                       result.cells_without_data, notes);
   }
   if (result.kind == ConvertResult::Kind::Contours)
-    return fmt::format("{}: {} contour lines\n", tin, result.lines);
+    return fmt::format("{}: {} contour lines\n{}", tin, result.lines, notes);
   if (result.kind == ConvertResult::Kind::Profile)
-    return fmt::format("{}: profiles of {} lines, {} rows\n", tin, result.lines, result.profile_rows);
-  return tin + "\n";
+    return fmt::format("{}: profiles of {} lines, {} rows\n{}", tin, result.lines, result.profile_rows,
+                       notes);
+  return tin + "\n" + notes;
 }
 
 }  // namespace thalweg

@@ -19,7 +19,7 @@ enum class Overwrite : std::uint8_t { No, Yes };
 /// (3) a committed file has been flushed to the device. Devices and pipes (/dev/stdout) are written directly.
 class PendingOutputs {
  public:
-  /// `sources`: files that the run reads. None of them, nor the .prj beside it, is ever a target.
+  /// `sources`: files that the run reads. None of them is ever a target.
   explicit PendingOutputs(std::vector<std::string> sources = {});
   ~PendingOutputs();
   PendingOutputs(const PendingOutputs&) = delete;
@@ -52,8 +52,6 @@ class PendingOutputs {
     [[nodiscard]] bool is_file() const { return written != target; }
   };
   static void check_new(const Output& output, const std::vector<Output>& known);
-  /// Whether a file is a source, or the .prj beside one.
-  [[nodiscard]] bool is_of_source(const std::string& target) const;
   /// What becomes of a target, if it can be written. Throws: as `add`.
   [[nodiscard]] Output output_of(const std::string& target, Overwrite mode) const;
 

@@ -59,6 +59,7 @@ struct ConvertResult {
   std::size_t columns = 0, rows = 0, cells_without_data = 0;  ///< of a raster
   std::size_t lines = 0;  ///< contour lines, or lines of which there are profiles
   std::size_t profile_rows = 0;
+  std::vector<std::string> notes;
 };
 
 /// Converts a TIN file; what to is decided by `profile`, `contours`, then by the format. A profile is a CSV
