@@ -112,7 +112,9 @@ void add_source_options(CLI::App& command, SourceArguments& a, ReadOptions& read
       command.add_option("--returns", read.returns, "LAS: all, first, last returns of a pulse"),
       {{"all", LasReturns::All}, {"first", LasReturns::First}, {"last", LasReturns::Last}})
       ->default_str("all");
-  command.add_option("--bbox", a.bbox, "xmin,ymin,xmax,ymax: only what lies there");
+  command.add_option(
+      "--bbox", a.bbox,
+      "xmin,ymin,xmax,ymax in the CRS of the TIN: only what lies there; lines that touch it, whole");
   command.add_option("--s-crs", read.source_crs, "CRS of the sources, in place of their own (-s_srs)");
   command.add_option("--t-crs", read.target_crs, "CRS to transform to (-t_srs)");
   command.add_option("--a-crs", read.assigned_crs, "CRS to assign without transforming (-a_srs)");

@@ -65,7 +65,7 @@ class Package(unittest.TestCase):
         self.assertIn("32632", tin.crs)
 
     def test_a_dem_simplified(self):
-        options = {"max_error": 20, "optimize": "local-minima,normal-angle-sum", "definition": "sees-opp"}
+        options = {"max_error": 20, "optimize": ["local-minima", "normal-angle-sum"], "definition": "sees-opp"}
         tin = thalweg.build(f"{JACKSBORO}/dem.tif", valleys=f"{JACKSBORO}/lines.gpkg|layername=valleys", **options)
         self.same_bytes(tin, f"{JACKSBORO}/dem.tif", "--valleys", f"{JACKSBORO}/lines.gpkg|layername=valleys",
                         "--max-error", "20")
@@ -133,7 +133,7 @@ class Package(unittest.TestCase):
             thalweg.build(np.zeros((5, 3)), ridges=[[1, 2, 3]])
         tin = thalweg.build(f"{TINY}/points.csv")
         path = f"{self.folder.name}/tin.gpkg"
-        tin.write(path, options=["LAYERS=triangles"])
+        tin.write(path, options={"LAYERS": "triangles"})
         with self.assertRaises(thalweg.ThalwegError) as caught:
             tin.write(path)
         self.assertEqual(caught.exception.code, "output-exists")

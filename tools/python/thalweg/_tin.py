@@ -70,13 +70,14 @@ class Tin:
         """The report, as `thalweg build --report` writes it."""
         return json.loads(LIBRARY.thalweg_tin_report(self._handle).decode())
 
-    def write(self, path: Path, format: Optional[str] = None, options: Sequence[str] = (),
+    def write(self, path: Path, format: Optional[str] = None, options: Union[Sequence[str], Dict[str, str]] = (),
               overwrite: bool = False) -> None:
-        """Writes a mesh or vector layers; `format` by the extension if None, `options` as "K=V".
+        """Writes a mesh or vector layers; `format` by the extension if None, `options` as "K=V", or a dict.
 
         Raises: ThalwegError "output-exists", "write-failed", "usage", ...
         """
-        values = (ctypes.c_char_p * (len(options) + 1))(*[option.encode() for option in options], None)
+        pairs = [f"{key}={value}" for key, value in options.items()] if isinstance(options, dict) else options
+        values = (ctypes.c_char_p * (len(pairs) + 1))(*[pair.encode() for pair in pairs], None)
         call("tin_write", self._handle, os.fsencode(path), None if format is None else format.encode(), values,
              int(overwrite))
 
@@ -96,6 +97,8 @@ def _set_options(job: int, options: Dict[str, Any]) -> None:
     for name, value in options.items():
         if value is None:
             continue
+        if name == "optimize" and isinstance(value, (list, tuple)):
+            value = ",".join(value)
         for part in value if isinstance(value, (list, tuple)) else [value]:
             call("job_set_option", job, name.replace("_", "-").encode(), str(part).encode())
 
