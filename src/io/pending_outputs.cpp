@@ -10,6 +10,8 @@
 // 4. All that live are listed, so that a process which is told to end can remove their files while its other
 // threads are still at work. The lock of the list is held while names change and files are given their
 // targets, and is not given back once they were abandoned.
+#include "io/file_writer.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/pending_outputs.hpp>
 
@@ -128,6 +130,12 @@ Living& living() {
 }
 
 }  // namespace
+
+void write_text(const std::string& path, const std::string& target, std::string_view text) {
+  FileWriter file(path, target);
+  file.text(text);
+  file.close();
+}
 
 PendingOutputs::PendingOutputs(std::vector<std::string> sources) : sources_(std::move(sources)) {
   const std::scoped_lock lock(living().lock);

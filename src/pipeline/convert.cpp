@@ -22,7 +22,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <utility>
 
@@ -192,12 +191,7 @@ void write_profile(const Job& job, const ProfileConfig& config, ConvertResult& r
   const ProfileTable table = profile_table(job.source.loaded, config, job.progress);
   result.lines = table.lines;
   result.profile_rows = table.rows;
-  std::ofstream file(job.outputs.add(job.config.output, job.overwrite()), std::ios::binary);
-  file << table.csv;
-  file.close();
-  if (!file) {
-    throw Error(ErrorCode::WriteFailed, job.config.output + " could not be written whole; is the disk full?");
-  }
+  write_text(job.outputs.add(job.config.output, job.overwrite()), job.config.output, table.csv);
 }
 
 bool is_mesh_format(const ConvertConfig& config) {

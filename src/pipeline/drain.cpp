@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -137,13 +136,6 @@ std::vector<double> sum_areas(const SurfaceFlow& flow, std::span<const std::uint
   std::vector<double> area_m2(end_of_sink.size(), 0);
   for (std::size_t s = 0; s < area_m2.size(); ++s) area_m2[end_of_sink[s]] += flow.sinks()[s].area * square;
   return area_m2;
-}
-
-void write_text(const std::string& path, const std::string& target, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
 }
 
 void write_model(const LoadedTin& loaded, const SwmmView& view, const DrainConfig& config,

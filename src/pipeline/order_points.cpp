@@ -12,7 +12,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <tuple>
@@ -62,13 +61,6 @@ void check_picture(const OrderConfig& config) {
                                             what, config.triangles.size()));
 }
 
-void write_list(const std::string& path, const std::string& target, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
-}
-
 std::string fault_name(TriangleFault fault) {
   switch (fault) {
     case TriangleFault::Flat:
@@ -115,7 +107,7 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
       orders, {.definition = config.definition, .max_order = config.max_order}, progress);
   if (!files.triangles.empty()) {
     result.order_triangles = triangles.size();
-    write_list(files.triangles, config.triangles_path, triangle_list(triangles));
+    write_text(files.triangles, config.triangles_path, triangle_list(triangles));
   }
   if (!files.conflicts.empty()) {
     progress.start_phase("conflicts");
@@ -123,7 +115,7 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
     const EdgeConflicts conflicts = faces ? find_edge_conflicts(*faces, {}, progress) : EdgeConflicts{};
     result.conflicts = conflicts.pairs.size();
     result.undecided_faces = conflicts.undecided_faces;
-    write_list(files.conflicts, config.conflicts_path, conflict_list(conflicts.pairs));
+    write_text(files.conflicts, config.conflicts_path, conflict_list(conflicts.pairs));
   }
   if (!files.edges.empty()) {
     progress.start_phase("useful edges");
@@ -133,7 +125,7 @@ void write_lists(const OrderConfig& config, const ListFiles& files, const Constr
     result.useful_edges = edges.size();
     result.unknown_edges = static_cast<std::size_t>(std::count_if(
         edges.begin(), edges.end(), [](const UsefulEdge& edge) { return !edge.order.has_value(); }));
-    write_list(files.edges, config.edges_path, edge_list(edges));
+    write_text(files.edges, config.edges_path, edge_list(edges));
   }
 }
 
@@ -185,7 +177,7 @@ OrderResult order_points(const OrderConfig& config, Progress& progress) {
     const std::vector<Quadrilateral> quadrilaterals =
         find_quadrilaterals(ground.tin, {.definition = config.definition, .mode = ground.mode}, progress);
     result.quadrilaterals = quadrilaterals.size();
-    write_list(quadrilaterals_file, config.quadrilaterals_path, quadrilateral_list(quadrilaterals));
+    write_text(quadrilaterals_file, config.quadrilaterals_path, quadrilateral_list(quadrilaterals));
   }
   if (config.census) take_census(orders, result, progress);
   if (!orders.unconstrained() && (config.census || asks_for_std(config))) {

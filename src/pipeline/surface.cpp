@@ -127,13 +127,6 @@ std::size_t peak_memory_bytes() {
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-void write_text(const std::string& path, const std::string& target, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) throw Error(ErrorCode::WriteFailed, target + " could not be written whole; is the disk full?");
-}
-
 }  // namespace
 
 ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point2> written) {

@@ -137,7 +137,10 @@ void PlainOrders::for_points_inside(const Corners& t, const F& f) const {
   // Rounding moves the centre by far less than this share of the radius unless the triangle is nearly flat.
   constexpr double kMargin = 1e-6;
   const bool trusted = std::isfinite(radius) && std::abs(twice) > 1e-9 * std::sqrt(b2 * c2);
-  const double reach = trusted ? radius * (1 + kMargin) : std::numeric_limits<double>::max() / 4;
+  // Far from the origin coordinates are coarse: so are the centre and the corners of cells.
+  const double coarse =
+      8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a.x) + radius, std::abs(a.y) + radius);
+  const double reach = trusted ? radius * (1 + kMargin) + coarse : std::numeric_limits<double>::max() / 4;
   const Point2 middle = trusted ? centre : a;
   // From the triangle outwards: what is near is seen most likely, and a count may stop early.
   points_.for_cells_outward({middle.x - reach, middle.y - reach, middle.x + reach, middle.y + reach}, a,
@@ -145,7 +148,8 @@ void PlainOrders::for_points_inside(const Corners& t, const F& f) const {
                               if (points_.in(cell).empty()) return true;
                               const double dx = std::max({box.x_min - middle.x, 0.0, middle.x - box.x_max});
                               const double dy = std::max({box.y_min - middle.y, 0.0, middle.y - box.y_max});
-                              if (trusted && std::hypot(dx, dy) > reach + kMargin * box.width()) return true;
+                              if (trusted && std::hypot(dx, dy) > reach + kMargin * box.width() + coarse)
+                                return true;
                               for (const Index p : points_.in(cell)) {
                                 if (p == t[0] || p == t[1] || p == t[2]) continue;
                                 if (counts_as_inside(a, b, c, mesh_.at(p)) && !f(p)) return false;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thalweg {
@@ -62,6 +63,10 @@ class PendingOutputs {
   std::vector<Output> outputs_, planned_;
   std::vector<std::string> stale_;
 };
+
+/// Writes a text to the path that `PendingOutputs::add` gave for `target`. Throws: Error{WriteFailed} naming
+/// the target, if not every byte could be written.
+void write_text(const std::string& path, const std::string& target, std::string_view text);
 
 /// For a process that is to end now, whatever its other threads are doing: removes the temporary files of
 /// every PendingOutputs in it; `add` and `commit` then do not return any more. False, and nothing is done, if

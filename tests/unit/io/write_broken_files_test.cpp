@@ -317,9 +317,11 @@ TEST(ReadTin, TextMeshesOfOthers) {
       "NS 10 20 -25 4 inflow\nNS 10\nNS -20 5 valley\nBEGPARAMDEF\n");
   TinFile file = read_file(folder.file("a.2dm"));
   EXPECT_EQ(file.points.size(), 3U);
-  ASSERT_EQ(file.constraints.size(), 1U);
-  EXPECT_EQ(file.constraints[0].kind, EdgeKind::Valley);
-  EXPECT_EQ(file.constraints[0].b, VertexId{1U});
+  ASSERT_EQ(file.constraints.size(), 3U);
+  EXPECT_EQ(file.constraints[0].kind, EdgeKind::Breakline) << "what else it means is not known";
+  EXPECT_EQ(file.constraints[1].kind, EdgeKind::Breakline);
+  EXPECT_EQ(file.constraints[2].kind, EdgeKind::Valley);
+  EXPECT_EQ(file.constraints[2].b, VertexId{1U});
 
   write_text(
       folder.file("a.OBJ"),
@@ -328,7 +330,9 @@ TEST(ReadTin, TextMeshesOfOthers) {
   file = read_file(folder.file("a.OBJ"));
   EXPECT_EQ(file.points.size(), 3U);
   EXPECT_EQ(file.triangles[0][2], VertexId{2U});
-  EXPECT_EQ(file.constraints.size(), 2U);
+  ASSERT_EQ(file.constraints.size(), 3U);
+  EXPECT_EQ(file.constraints[0].kind, EdgeKind::Breakline);
+  EXPECT_EQ(file.constraints[1].kind, EdgeKind::Ridge);
 }
 
 }  // namespace
