@@ -125,7 +125,7 @@ bool means_same_crs(const std::string& a, const std::string& b) {
   }
 }
 
-OGRSpatialReference with_heights_in(const OGRSpatialReference& plane, double metres_per_unit) {
+std::optional<OGRSpatialReference> with_heights_in(const OGRSpatialReference& plane, double metres_per_unit) {
   const auto is = [metres_per_unit](double unit) { return std::abs(metres_per_unit / unit - 1) < 1e-12; };
   const char* const name = is(1)               ? "metre"
                            : is(0.3048)        ? "foot"
@@ -136,9 +136,21 @@ OGRSpatialReference with_heights_in(const OGRSpatialReference& plane, double met
                                   "AXIS[\"gravity-related height (H)\",up],LENGTHUNIT[\"{0}\",{1}]]",
                                   name, metres_per_unit));
   OGRSpatialReference compound;
-  compound.SetCompoundCS(fmt::format("{} + height ({})", plane.GetName(), name).c_str(), &plane, &heights);
+  const std::string both = fmt::format("{} + height ({})", plane.GetName(), name);
+  if (compound.SetCompoundCS(both.c_str(), &plane, &heights) != OGRERR_NONE) return std::nullopt;
   compound.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return compound;
+}
+
+OGRSpatialReference horizontal_part(const OGRSpatialReference& reference) {
+  OGRSpatialReference part(reference);
+  if (part.IsCompound()) {
+    part.StripVertical();
+  } else if (part.GetAxesCount() == 3) {
+    part.DemoteTo2D(nullptr);
+  }
+  part.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return part;
 }
 
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin) {

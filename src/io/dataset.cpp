@@ -6,10 +6,14 @@
 
 #include <thalweg/base/error.hpp>
 
+#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace thalweg {
@@ -112,6 +116,29 @@ OGRLayer& choose_layer(GDALDataset& dataset, const SourceSpec& source, LayerUse 
                                       source.path + "|layername=NAME" + layers);
   }
   return *fitting.front();
+}
+
+std::vector<std::string> files_of_source(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> files = {path};
+  for (const char* extension : {".prj", ".dbf", ".shx"}) {
+    const bool any = std::string_view(extension) == ".prj" || fs::path(path).extension() == ".shp";
+    if (any) files.push_back(fs::path(path).replace_extension(extension).string());
+  }
+  if (path.starts_with("/vsi")) {  // "/vsizip/folder/archive.zip/file"
+    std::string inner = path.substr(std::min(path.find('/', 1), path.size()));
+    for (; inner.size() > 1; inner.resize(inner.find_last_of('/'))) {
+      files.push_back(inner);
+      files.push_back(inner.substr(1));
+    }
+  }
+  if (fs::path(path).extension() == ".vrt") {
+    const GdalSession session;
+    const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR));
+    const CPLStringList parts(dataset ? dataset->GetFileList() : nullptr);
+    for (int i = 0; i < parts.size(); ++i) files.emplace_back(parts[i]);
+  }
+  return files;
 }
 
 }  // namespace thalweg

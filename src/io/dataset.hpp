@@ -7,6 +7,7 @@
 #include <gdal_priv.h>
 
 #include <string>
+#include <vector>
 
 namespace thalweg {
 
@@ -31,5 +32,9 @@ bool can_hold(OGRwkbGeometryType type, LayerUse use);
 
 /// "Line String" for people: "lines", "polygons", ...
 std::string name_of_geometry(OGRwkbGeometryType type);
+
+/// The files that a source is read from, as far as its name and, for a virtual one (.vrt), its content tell:
+/// itself, what belongs to it (.prj, .dbf), and the archive that it is in.
+std::vector<std::string> files_of_source(const std::string& path);
 
 }  // namespace thalweg

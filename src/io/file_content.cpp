@@ -97,12 +97,11 @@ std::string read_prj_sidecar(const std::string& path) {
 void refuse_shared_prj(const std::string& prj, const std::string& target) {
   namespace fs = std::filesystem;
   if (!fs::exists(prj)) return;
-  for (const char* extension : {".shp", ".csv", ".xyz", ".txt", ".asc", ".bil", ".flt", ".2dm", ".obj",
-                                ".off", ".stl", ".glb", ".vtu"}) {
+  for (const char* extension : {".shp", ".asc", ".bil", ".flt"}) {
     const fs::path other = fs::path(prj).replace_extension(extension);
     if (other == fs::path(target) || !fs::exists(other)) continue;
     throw Error(ErrorCode::Usage, prj + ": is the CRS of " + other.string() + ", and not that of " + target +
-                                      "; give the output another name");
+                                      "; give the output another name, or remove that");
   }
 }
 

@@ -28,12 +28,13 @@ bool is_folder(const std::string& path) {
 void copy_out(const std::string& from, const std::string& to, const std::string& target) {
   vsi_l_offset size = 0;
   const GByte* bytes = VSIGetMemFileBuffer(from.c_str(), &size, FALSE);
-  if (bytes == nullptr || size == 0) {
-    throw Error(ErrorCode::WriteFailed, target + ": the driver made an empty file; choose another format");
+  VSIStatBufL status;
+  if (VSIStatL(from.c_str(), &status) != 0) {
+    throw Error(ErrorCode::WriteFailed, target + ": the driver made no file; choose another format");
   }
   FileWriter file(to, target);
   // The standard lets bytes be looked at as characters.
-  file.text({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)});
+  if (bytes != nullptr) file.text({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)});
   file.close();
 }
 

@@ -10,6 +10,7 @@
 // 4. All that live are listed, so that a process which is told to end can remove their files while its other
 // threads are still at work. The lock of the list is held while names change and files are given their
 // targets, and is not given back once they were abandoned.
+#include "io/dataset.hpp"
 #include "io/file_writer.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -84,6 +85,19 @@ void sync_to_device(const fs::path& path, const std::string& target) {
   }
 }
 
+/// What a chain of links leads to, whether or not it is there.
+fs::path behind_links(const std::string& target) {
+  constexpr int kMost = 40;
+  fs::path path = target;
+  std::error_code ignored;
+  for (int i = 0; i < kMost; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(path, ignored))) return path;
+    const fs::path next = fs::read_symlink(path, ignored);
+    path = next.is_absolute() ? next : folder_of(path) / next;
+  }
+  throw Error(ErrorCode::WriteFailed, target + ": is a link that leads nowhere; remove it");
+}
+
 Error exists_already(const std::string& target) {
   return {ErrorCode::OutputExists,
           target + ": exists already; choose another name or overwrite it with --overwrite"};
@@ -105,8 +119,13 @@ bool give_name(const std::string& written, const std::string& target, Overwrite 
 // What SQLite may leave beside a database when it is stopped.
 constexpr std::array<const char*, 4> kRemains = {"", "-journal", "-wal", "-shm"};
 
+bool is_database(const fs::path& target) {
+  return target.extension() == ".gpkg";
+}
+
 // What such remains hold would be taken for a part of the new database.
 void refuse_open_database(const std::string& target) {
+  if (!is_database(target)) return;
   for (const char* remains : {"-journal", "-wal"}) {
     std::error_code not_there;
     const std::uintmax_t size = fs::file_size(target + remains, not_there);
@@ -137,7 +156,10 @@ void write_text(const std::string& path, const std::string& target, std::string_
   file.close();
 }
 
-PendingOutputs::PendingOutputs(std::vector<std::string> sources) : sources_(std::move(sources)) {
+PendingOutputs::PendingOutputs(const std::vector<std::string>& sources) {
+  for (const std::string& source : sources) {
+    for (std::string& file : files_of_source(source)) sources_.push_back(std::move(file));
+  }
   const std::scoped_lock lock(living().lock);
   living().all.push_back(this);
 }
@@ -177,11 +199,7 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
     throw Error(ErrorCode::Usage, target + ": is a folder; give the name of a file in it");
   }
   if (fs::is_character_file(status) || fs::is_fifo(status)) return {target, target, mode};
-  const bool link = fs::is_symlink(fs::symlink_status(target, ignored));
-  const fs::path path = link ? fs::weakly_canonical(target, ignored) : fs::path(target);
-  if (path.empty()) {
-    throw Error(ErrorCode::WriteFailed, target + ": is a link that leads nowhere; remove it");
-  }
+  const fs::path path = behind_links(target);
   const fs::path folder = folder_of(path);
   if (!fs::is_directory(folder, ignored)) {
     throw Error(ErrorCode::NotFound, target + ": there is no folder '" + folder.string() +
@@ -190,10 +208,11 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
   if (fs::exists(status) && mode == Overwrite::No) {
     throw exists_already(target);
   }
-  if (fs::exists(status)) refuse_open_database(path.string());
+  refuse_open_database(path.string());
   for (const std::string& source : sources_) {
     if (!fs::equivalent(target, source, ignored)) continue;
-    throw Error(ErrorCode::Usage, target + ": is a source, and would be lost; give the output another name");
+    throw Error(ErrorCode::Usage,
+                target + ": is a source or a part of one, and would be lost; give the output another name");
   }
   return {path.string(), unused_path(path).string(), mode};
 }
@@ -241,7 +260,7 @@ void PendingOutputs::commit() {
     const fs::file_status old = fs::status(output.target, ignored);
     if (fs::is_regular_file(old)) fs::permissions(output.written, old.permissions(), ignored);
     sync_to_device(output.written, output.target);
-    if (fs::is_regular_file(old)) refuse_open_database(output.target);
+    refuse_open_database(output.target);
   }
   const std::scoped_lock lock(living().lock);
   living().committed = true;
@@ -249,7 +268,7 @@ void PendingOutputs::commit() {
   for (Output& output : outputs_) {
     if (!output.is_file()) continue;
     for (const char* remains : kRemains) {
-      if (*remains != 0) ::unlink((output.target + remains).c_str());
+      if (is_database(output.target) && *remains != 0) ::unlink((output.target + remains).c_str());
     }
     if (!give_name(output.written, output.target, output.mode)) {
       if (errno == EEXIST) throw exists_already(output.target);

@@ -31,17 +31,6 @@ bool has_vertical_part(const OGRSpatialReference& reference) {
   return reference.GetAxesCount() == 3;
 }
 
-OGRSpatialReference horizontal_part(const OGRSpatialReference& reference) {
-  OGRSpatialReference part(reference);
-  if (part.IsCompound()) {
-    part.StripVertical();
-  } else if (has_vertical_part(part)) {
-    part.DemoteTo2D(nullptr);
-  }
-  part.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  return part;
-}
-
 std::string name_of(const OGRSpatialReference& reference) {
   const char* name = reference.GetName();
   return name != nullptr ? name : "unnamed";

@@ -195,13 +195,16 @@ class SurveyReading {
   }
 
   /// The unit of heights that a source tells, but the CRS does not, becomes a part of that, so that outputs
-  /// tell it too; where nothing is known but the unit, heights become metres.
+  /// tell it too. Where the CRS is unknown or local, heights are brought to its unit.
   void tell_vertical_unit(CrsInfo& crs) {
     const double unit = survey_.vertical_metres_per_unit;
-    if (!crs.known) {
+    std::optional<OGRSpatialReference> compound;
+    const bool differs = std::abs(unit / crs.vertical_metres_per_unit - 1) > 1e-12;
+    if (crs.known && differs) compound = with_heights_in(parse_reference(crs.wkt), unit);
+    if (compound) {
+      crs = describe_reference(*compound, "the survey");
+    } else {
       survey_.vertical_metres_per_unit = crs.vertical_metres_per_unit;
-    } else if (unit != crs.vertical_metres_per_unit) {
-      crs = describe_reference(with_heights_in(parse_reference(crs.wkt), unit), "the survey");
     }
     crs.vertical_unit_told = true;
   }

@@ -6,6 +6,7 @@
 
 #include <ogr_spatialref.h>
 
+#include <optional>
 #include <string>
 
 namespace thalweg {
@@ -17,8 +18,12 @@ OGRSpatialReference parse_reference(const std::string& definition);
 /// Whether two references mean the same CRS, whatever the order of their axes.
 bool means_same_crs(const OGRSpatialReference& a, const OGRSpatialReference& b);
 
-/// The compound CRS of a reference without a vertical part and heights in this unit above no known datum.
-OGRSpatialReference with_heights_in(const OGRSpatialReference& plane, double metres_per_unit);
+/// The compound CRS of a reference without a vertical part and heights in this unit above no known datum;
+/// none for a local CRS, which cannot be a part of one.
+std::optional<OGRSpatialReference> with_heights_in(const OGRSpatialReference& plane, double metres_per_unit);
+
+/// A reference without its vertical part.
+OGRSpatialReference horizontal_part(const OGRSpatialReference& reference);
 
 /// What a reference says; an empty one is the unknown CRS.
 /// Throws: Error{BadCrs} naming `origin`, if the CRS has no plane.

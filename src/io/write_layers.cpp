@@ -32,7 +32,6 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <ranges>
 
 namespace thalweg {
 
@@ -75,8 +74,8 @@ struct Turn {
 /// as they are.
 std::optional<Turn> across_antimeridian(std::span<const Point2> xy, double period) {
   const auto sides = [xy](const auto& turn) {
-    const auto [west, east] = std::ranges::minmax(xy | std::views::transform(turn), {}, &Point2::x);
-    return std::pair(west.x, east.x);
+    const auto [west, east] = std::ranges::minmax(xy, {}, [&](Point2 p) { return turn(p).x; });
+    return std::pair(turn(west).x, turn(east).x);
   };
   if (xy.empty()) return {};
   const auto [west, east] = sides(std::identity());
@@ -123,6 +122,8 @@ class LayerWriter {
         xy_ = turned_;
       }
     }
+    if (reference_ && format_.driver == std::string_view("GeoJSON"))
+      reference_ = horizontal_part(*reference_);
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(format_.driver);
     if (driver == nullptr) {
       throw Error(ErrorCode::Unsupported,

@@ -49,6 +49,9 @@ void write_features(const std::string& path, const LineLayerView& view, const Dr
                     GDALDataset& dataset, const GdalSession& session, Progress& progress) {
   std::optional<OGRSpatialReference> reference;
   if (!view.crs_wkt.empty()) reference = parse_reference(view.crs_wkt);
+  // It names CRSs by their codes.
+  const bool json = std::string_view(dataset.GetDriver()->GetDescription()).starts_with("GeoJSON");
+  if (reference && json) reference = horizontal_part(*reference);
   OGRLayer* layer = dataset.CreateLayer(view.layer.c_str(), reference ? &*reference : nullptr,
                                         wkbLineString25D, CPLStringList(options.layer).List());
   if (layer == nullptr) fail(path, session);

@@ -4,6 +4,7 @@
 #include "io/gdal_formats.hpp"
 #include "io/gdal_session.hpp"
 #include "io/memory_folder.hpp"
+#include "io/raster_points.hpp"
 #include "io/spatial_reference.hpp"
 
 #include <thalweg/io/write_raster.hpp>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -105,13 +107,19 @@ void check_readable(const std::string& made, const std::string& path, const Rast
   }
 }
 
-/// Whether what the driver made says where the cells lie, and in which CRS.
+/// Whether what the driver made says where the cells lie, in which CRS, and the unit of heights if that is
+/// not what the CRS lets one think.
 bool tells_place(const std::string& made, const RasterView& view) {
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER));
   std::array<double, 6> transform{};
   if (!dataset || dataset->GetGeoTransform(transform.data()) != CE_None) return false;
   const OGRSpatialReference* const reference = dataset->GetSpatialRef();
-  return view.crs_wkt.empty() || (reference != nullptr && !reference->IsEmpty());
+  if (view.crs_wkt.empty()) return true;
+  if (reference == nullptr || reference->IsEmpty()) return false;
+  if (view.metres_per_unit == 0) return true;
+  const double unit = metres_of_unit(dataset->GetRasterBand(1)->GetUnitType())
+                          .value_or(describe_reference(*reference, made).vertical_metres_per_unit);
+  return std::abs(unit / view.metres_per_unit - 1) < 1e-9;
 }
 
 int report_progress(double fraction, const char*, void* progress) {
@@ -149,21 +157,22 @@ void write_raster(const std::string& path, const RasterView& view, const WriteOp
   const std::string written = pending.add(path, mode);
   const double nodata = choose_nodata(view);
   const GDALDatasetUniquePtr dataset = make_dataset(path, view, nodata, session);
-  for (const bool sidecar :
-       {false, true}) {  // GDAL's own, .aux.xml, where the format does not tell the place
+  const auto make = [&](bool sidecar) {
     const CPLConfigOptionSetter choice("GDAL_PAM_ENABLED", sidecar ? "YES" : "NO", false);
-    const MemoryFolder folder(path);
-    GDALDatasetUniquePtr copy(driver->CreateCopy(folder.path().c_str(), dataset.get(), FALSE,
+    auto folder = std::make_unique<MemoryFolder>(path);
+    GDALDatasetUniquePtr copy(driver->CreateCopy(folder->path().c_str(), dataset.get(), FALSE,
                                                  creation.dataset.List(), report_progress, &progress));
     progress.check();
     if (!copy) fail(path, session);
     copy.reset();
     if (session.failed()) fail(path, session);
-    if (!sidecar && !tells_place(folder.path(), view)) continue;
-    check_readable(folder.path(), path, view, nodata, *driver);
-    folder.deliver(written, pending, mode);
-    break;
-  }
+    if (!sidecar && !tells_place(folder->path(), view)) return std::unique_ptr<MemoryFolder>();
+    check_readable(folder->path(), path, view, nodata, *driver);
+    return folder;
+  };
+  std::unique_ptr<MemoryFolder> folder = make(false);
+  if (!folder) folder = make(true);  // GDAL's own sidecar, .aux.xml, tells what the format cannot
+  folder->deliver(written, pending, mode);
   progress.advance(1);
 }
 

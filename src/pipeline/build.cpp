@@ -108,6 +108,10 @@ std::vector<bool> surface_triangles(const Terrain& terrain, const NodataRegion& 
     refuse_pole(terrain, keep, plane);
     narrow(keep, drop_turned_rim_triangles(keep_triangles(ground, keep), terrain.continuous));
   }
+  if (std::ranges::find(keep, true) == keep.end()) {
+    throw Error(ErrorCode::EmptyInput,
+                "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
+  }
   return keep;
 }
 
@@ -217,10 +221,6 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   terrain.ground = std::move(ground.tin);
   ground = {};
   terrain.keep = surface_triangles(terrain, read.nodata, plane, config.max_edge_m, progress);
-  if (std::ranges::find(terrain.keep, true) == terrain.keep.end()) {
-    throw Error(ErrorCode::EmptyInput,
-                "no triangle is left of the surface; look at --max-edge, --boundary, --nodata");
-  }
   note_lost_edges(terrain, report);
   note_antimeridian(terrain, plane, report);
   report.tin.dropped_rim_triangles =

@@ -112,10 +112,10 @@ RasterGrid make_grid(const RasterConfig& raster, const Source& source, std::vect
   const double east = box.width() - static_cast<double>(grid.columns) * cell,
                south = box.height() - static_cast<double>(grid.rows) * cell;
   if (raster.extent && std::max(std::abs(east), std::abs(south)) > 1e-6 * cell) {
-    notes.push_back(
-        fmt::format("the extent holds no whole number of cells: {:.6g} in the east and {:.6g} in the "
-                    "south are left out",
-                    east, south));
+    notes.push_back(fmt::format(
+        "the extent holds no whole number of cells: the raster ends {:.6g} {} its east and {:.6g} {} its "
+        "south",
+        std::abs(east), east < 0 ? "beyond" : "before", std::abs(south), south < 0 ? "beyond" : "before"));
   }
   return grid;
 }

@@ -54,12 +54,11 @@ double Stopwatch::total() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
-RunOutputs::RunOutputs(const OutputConfig& config, std::vector<std::string> sources)
-    : pending(std::move(sources)) {
+RunOutputs::RunOutputs(const OutputConfig& config, const std::vector<std::string>& sources)
+    : pending(sources) {
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
   if (config.path.empty()) return;
   check_write_options(config.path, {.format = config.format, .creation_options = config.creation_options});
-  pending.plan(config.path, mode);
   const auto reserve = [&](const std::string& path) {
     return path.empty() || path == "-" ? std::string() : pending.add(path, mode);
   };
@@ -68,12 +67,13 @@ RunOutputs::RunOutputs(const OutputConfig& config, std::vector<std::string> sour
   }
   if (!config.changes_path.empty()) {
     check_features_path(config.changes_path);
-    pending.plan(config.changes_path, mode);
   }
   report = reserve(config.report_path);
   picture = reserve(config.picture_path);
   problem = reserve(config.problem_path);
   proof = reserve(config.proof_path);
+  pending.plan(config.path, mode);
+  if (!config.changes_path.empty()) pending.plan(config.changes_path, mode);
 }
 
 namespace {

@@ -34,7 +34,7 @@ class Stopwatch {
 /// The files of a run: paths are reserved before the work starts, so that a missing folder or an existing
 /// output is said at once, and renamed together when all are whole.
 struct RunOutputs {
-  RunOutputs(const OutputConfig& config, std::vector<std::string> sources);
+  RunOutputs(const OutputConfig& config, const std::vector<std::string>& sources);
 
   PendingOutputs pending;
   std::string report, picture, problem, proof;  ///< temporary paths; empty where none was asked for

@@ -157,13 +157,17 @@ class LevelTracer {
   std::vector<std::vector<PathPoint>> paths_;
 };
 
-/// The number of 15 digits that rounding in a product and a sum may have missed: 0.3, not 3 * 0.1.
-double nearest_decimal(double value) {
+/// The decimal number near `value` that rounding may have missed in a sum of numbers as large as `scale`:
+/// 0.3, not 3 * 0.1.
+double nearest_decimal(double value, double scale) {
   constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
-  const std::string text = fmt::format("{:.15g}", value);
+  constexpr int kDigits = 15;
+  const int places =
+      scale > 0 ? std::max(kDigits - 1 - static_cast<int>(std::floor(std::log10(scale))), 0) : 0;
+  const std::string text = fmt::format("{:.{}f}", value, places);
   double decimal = value;
   std::from_chars(text.data(), text.data() + text.size(), decimal);
-  return std::abs(decimal - value) <= kRounding * std::abs(value) ? decimal : value;
+  return std::abs(decimal - value) <= kRounding * scale ? decimal : value;
 }
 
 }  // namespace
@@ -192,7 +196,9 @@ std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& op
   // One more at both ends, because divisions are rounded.
   std::vector<double> heights;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(last - first); ++i) {
-    const double height = nearest_decimal(options.base + (first + static_cast<double>(i)) * options.interval);
+    const double rise = (first + static_cast<double>(i)) * options.interval;
+    const double height =
+        nearest_decimal(options.base + rise, std::max(std::abs(options.base), std::abs(rise)));
     const bool is_new = heights.empty() || height > heights.back();
     if (is_new && height >= low && height <= top) heights.push_back(height);
   }

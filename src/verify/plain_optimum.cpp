@@ -28,17 +28,15 @@ namespace {
 constexpr std::size_t kWidthLimit = 20;
 constexpr long double kSteps = 0x1p32L;
 
-/// Whether a claim cannot hold whatever the terrain; says so in the finding.
-bool contradicts_itself(const CriterionClaim& claim, const std::optional<PlainCriterion>& criterion,
-                        Finding& finding) {
+/// Why a claim cannot hold, whatever the terrain; nothing if it could.
+std::optional<std::string> find_contradiction(const CriterionClaim& claim,
+                                              const std::optional<PlainCriterion>& criterion) {
   const double sign = criterion && criterion->maximised ? -1 : 1;
   const bool beyond = criterion && sign * claim.bound > sign * claim.result;
-  if (!beyond && !(claim.optimal && claim.bound != claim.result)) return false;
-  finding.verdict = Verdict::Broken;
-  finding.detail =
-      fmt::format("{}, but the bound is {:.17g}, the result {:.17g}",
-                  claim.optimal ? "called optimal" : "a bound bounds the result", claim.bound, claim.result);
-  return true;
+  if (!beyond && !(claim.optimal && claim.bound != claim.result)) return std::nullopt;
+  return fmt::format("{}, but the bound is {:.17g}, the result {:.17g}",
+                     claim.optimal ? "called optimal" : "a bound bounds the result", claim.bound,
+                     claim.result);
 }
 
 class BoundChecker {
@@ -55,7 +53,9 @@ class BoundChecker {
   Finding check(const CriterionClaim& claim) {
     Finding finding{claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked, {}};
     const auto criterion = plain_criterion(claim.name, problem_.reference);
-    if (contradicts_itself(claim, criterion, finding)) return finding;
+    if (const auto contradiction = find_contradiction(claim, criterion)) {
+      return {finding.claim, Verdict::Broken, *contradiction};
+    }
     if (!reason_.empty()) {
       finding.detail = reason_;
       return finding;
@@ -331,7 +331,11 @@ std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const C
       Finding& finding =
           findings.emplace_back(claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked,
                                 "only for order 0 and 1, and quadrilaterals that do not overlap");
-      contradicts_itself(claim, plain_criterion(claim.name, problem.reference), finding);
+      if (const auto contradiction =
+              find_contradiction(claim, plain_criterion(claim.name, problem.reference))) {
+        finding.verdict = Verdict::Broken;
+        finding.detail = *contradiction;
+      }
     }
     return findings;
   }

@@ -20,8 +20,8 @@ enum class Overwrite : std::uint8_t { No, Yes };
 /// (3) a committed file has been flushed to the device. Devices and pipes (/dev/stdout) are written directly.
 class PendingOutputs {
  public:
-  /// `sources`: files that the run reads. None of them is ever a target.
-  explicit PendingOutputs(std::vector<std::string> sources = {});
+  /// `sources`: files that the run reads. None of them, nor a file that belongs to one, is ever a target.
+  explicit PendingOutputs(const std::vector<std::string>& sources = {});
   ~PendingOutputs();
   PendingOutputs(const PendingOutputs&) = delete;
   PendingOutputs& operator=(const PendingOutputs&) = delete;

@@ -24,13 +24,12 @@ struct TinFile {
   std::string crs;  ///< "EPSG:n", the WKT that the file or its sidecar holds, or empty
 };
 
-/// Reads PLY (ascii, binary of either endianness; unknown elements and properties are skipped), 2DM, OBJ, and
-/// GPKG as written by `write_tin`. The content decides the format, not the extension. Triangles that are all
-/// clockwise are turned. Throws:
-/// Error{NotFound}, Error{Unreadable}; Error{BadFormat} naming the line, offset or feature;
-/// Error{BadCoordinate} for values that are not finite; Error{WrongGeometry} for faces with other than three
-/// corners; Error{Unsupported} if no format is recognised; Error{Cancelled}. Memory is bounded by the file's
-/// size, whatever counts it claims.
+/// Reads PLY (ascii, binary of either endianness; unknown elements and properties are skipped), 2DM, OBJ,
+/// OFF, STL, UGRID, LandXML, and GPKG as written by `write_tin`. The content decides the format, not the
+/// extension. Triangles that are all clockwise are turned. Throws: Error{NotFound}, Error{Unreadable};
+/// Error{BadFormat} naming the line, offset or feature; Error{BadCoordinate} for values that are not finite;
+/// Error{WrongGeometry} for faces with other than three corners; Error{Unsupported} if no format is
+/// recognised; Error{Cancelled}. Memory is bounded by the file's size, whatever counts it claims.
 TinFile read_tin(const std::string& path, Progress& progress);
 
 }  // namespace thalweg

@@ -141,7 +141,7 @@ def build(points: Union[Source, Sequence[Path]], *, ridges: Iterable[Source] = (
     points: an array (n, 3) of x, y, z, a source "PATH" or "PATH|layername=NAME", or a list of sources. Vertex i
     of the TIN is the i-th distinct point that is used.
     ridges, valleys, breaklines: sources, or arrays (n, 3) with heights or (n, 2) without; boundary, holes,
-    lakes: the same, each array one closed ring. crs: of the coordinates, in place of what sources declare (option a-crs).
+    lakes: the same, each array one closed ring and an area by itself. crs: of the coordinates, in place of what sources declare (option a-crs).
     options: those of `thalweg build`, dashes as underscores: order=1, optimize="none", max_error=0.5.
     progress: called with phase and fraction; cancels if it returns True; what it raises is raised here.
 
