@@ -91,7 +91,9 @@ class FaceRun {
   using Values = std::array<WideSteps, Criteria>;  ///< by level, in steps
   struct Choice {
     std::vector<std::uint32_t> triangles;  ///< candidates, ascending
-    Values value{}, bound{};
+    Values value{};
+    Values bound{};  ///< of all levels, one after the other
+    Values least{};  ///< of each level by itself
     std::size_t new_edges = 0;
     SolverFigures figures;
     std::size_t labels = 0, most_labels = 0, partial_faces = 0, largest_face = 0;
@@ -134,7 +136,9 @@ class FaceRun {
     Choice choice = solve_for(terms, sides, labels);
     if (choice.partial_faces > 0) {
       relax_partial(terms, sides, labels);
-      choice.bound = solve_for(terms, sides, labels).bound;
+      const Choice relaxed = solve_for(terms, sides, labels);
+      choice.bound = relaxed.bound;
+      choice.least = relaxed.least;
     }
     return choice;
   }
@@ -220,6 +224,7 @@ class FaceRun {
       for (std::size_t level = 0; level < Criteria; ++level) {
         choice.value[level] += network.base[level];
         choice.bound[level] += network.base[level];
+        choice.least[level] = network.base[level];  // what is left costs nothing or more
       }
       return choice;
     }
@@ -397,15 +402,16 @@ class FaceRun {
     result.tin = tin_of(choice);
     bool proved = true;
     for (std::size_t level = 0; level < reported_; ++level) {
-      result.criteria.push_back(describe(level, choice, result.tin));
-      proved = proved && result.criteria.back().optimal;
-      result.criteria.back().optimal = proved;
+      result.criteria.push_back(describe(level, choice, result.tin, proved));
+      proved = result.criteria.back().optimal;
     }
     return result;
   }
 
-  /// As in optimize_first_order: the bound of a level holds if all levels before have reached theirs.
-  [[nodiscard]] CriterionResult describe(std::size_t level, const Choice& choice, const Tin& tin) const {
+  /// As in optimize_first_order: the bound of a level holds if all levels before have reached theirs; else
+  /// that of the level by itself does.
+  [[nodiscard]] CriterionResult describe(std::size_t level, const Choice& choice, const Tin& tin,
+                                         bool proved_before) const {
     CriterionResult line{.name = "order-sum", .unit = "count", .direction = "min"};
     if (levels_[level]) {
       line.name = levels_[level]->name();
@@ -416,8 +422,9 @@ class FaceRun {
       return levels_[level] ? value_on(of, *levels_[level], scale_, reference_, progress_) : order_sum_on(of);
     };
     const WideSteps delaunay = value(delaunay_), result = value(tin);
-    WideSteps bound = result - (choice.value[level] - choice.bound[level]);
-    if (counts_pits(level)) bound = choice.bound[level];
+    const Values& bounds = proved_before ? choice.bound : choice.least;
+    WideSteps bound = result - (choice.value[level] - bounds[level]);
+    if (counts_pits(level)) bound = proved_before ? choice.bound[level] : 0;
     if (is_extreme(level)) bound = settled_[level].bound;
     const auto as_reported = [&](WideSteps steps) {
       return levels_[level] ? in_units(steps, *levels_[level]) : static_cast<double>(steps);
@@ -425,7 +432,7 @@ class FaceRun {
     line.delaunay = as_reported(delaunay);
     line.result = as_reported(result);
     line.bound = as_reported(bound);
-    line.optimal = result == bound;
+    line.optimal = proved_before && result == bound;
     line.method = method_name(choice.figures);
     if (is_extreme(level)) line.method = "bisection over limits by " + line.method;
     if (counts_pits(level)) line.method = "outlets by " + line.method;

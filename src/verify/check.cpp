@@ -290,6 +290,14 @@ class Checker {
     pits("result", claims_.pits_result, mesh_);
   }
 
+  [[nodiscard]] std::vector<bool> flipped_quadrilaterals() const {
+    const std::set<std::pair<Index, Index>> edges = edges_of(mesh_);
+    std::vector<bool> flipped;
+    for (const PlainQuadrilateral& q : quadrilaterals_)
+      flipped.push_back(edges.contains(std::minmax(q.s, q.t)));
+    return flipped;
+  }
+
   void check_optima() {
     progress_.start_phase("optima");
     if (claims_.barred > 0) {
@@ -305,7 +313,8 @@ class Checker {
          .reference = reference(),
          .order = subject_.order,
          .structure_known = subject_.order == 0 ||
-                            (subject_.order == 1 && orders_known_ && quadrilaterals_tell_all())},
+                            (subject_.order == 1 && orders_known_ && quadrilaterals_tell_all()),
+         .flipped = flipped_quadrilaterals()},
                       claims_.criteria, proof_fits_ ? &*claims_.proof : nullptr, progress_)) {
       table_.add(std::move(finding.claim), finding.verdict, std::move(finding.detail));
     }

@@ -61,6 +61,17 @@ Factor without_idle(Factor factor) {
 
 }  // namespace
 
+Cost cost_of(std::span<const Factor> factors, const std::vector<bool>& labels) {
+  Cost sum{};
+  for (const Factor& factor : factors) {
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < factor.scope.size(); ++i)
+      at |= (labels[factor.scope[i]] ? std::size_t{1} : 0U) << i;
+    sum = plus(sum, factor.table[at]);
+  }
+  return sum;
+}
+
 FactorSum::FactorSum(std::size_t variables, std::vector<Factor> factors)
     : of_(variables), open_(variables, true) {
   for (Factor& factor : factors) attach(without_idle(std::move(factor)));
@@ -183,33 +194,11 @@ void FactorSum::split_pair(Index f) {
   add_cost(pair.scope[1], minus(pair.table[2], pair.table[0]));
 }
 
-void FactorSum::split_pairs() {
-  const auto count = static_cast<Index>(factors_.size());
-  for (Index f = 0; f < count; ++f) {
-    if (factors_[f].scope.size() == 2) split_pair(f);
-  }
-}
-
 void FactorSum::split_loose_pairs() {
   const auto count = static_cast<Index>(factors_.size());
   for (Index f = 0; f < count; ++f) {
     if (factors_[f].scope.size() == 2 && cost_of_both(factors_[f]) == Cost{}) split_pair(f);
   }
-}
-
-bool FactorSum::substitute(Index q, Index fresh, std::span<const Index> others) {
-  bool found = false;
-  const std::vector<Index> own = of_[q];
-  for (const Index f : own) {
-    Factor factor = factors_[f];
-    std::vector<Index> rest = factor.scope;
-    std::erase(rest, q);
-    if (!std::equal(rest.begin(), rest.end(), others.begin(), others.end())) continue;
-    factor.scope[place_of(factor.scope, q)] = fresh;
-    replace(f, sorted(factor));
-    found = true;
-  }
-  return found;
 }
 
 void FactorSum::keep_only(std::span<const Index> kept) {

@@ -23,6 +23,9 @@ struct Factor {
   std::vector<Cost> table;   ///< bit i of the index is the label of scope[i]
 };
 
+/// The sum of all factors at given labels.
+Cost cost_of(std::span<const Factor> factors, const std::vector<bool>& labels);
+
 /// What elimination leaves behind: the variable's best label, given those of its neighbours.
 struct Elimination {
   Index variable = 0;
@@ -53,14 +56,9 @@ class FactorSum {
   void add_factor(const Factor& factor);
   /// A cost paid if q is true.
   void add_cost(Index q, const Cost& cost);
-  /// Writes each factor of two variables as a constant, a cost of each variable when true, and a cost of both
-  /// if there is any.
-  void split_pairs();
-  /// The same where both together cost nothing more.
+  /// Writes each factor of two variables as a constant and a cost of each variable when true, where both
+  /// together cost nothing more.
   void split_loose_pairs();
-  /// Puts `fresh` for q in the factors whose other variables are exactly `others` (ascending); whether there
-  /// was any.
-  bool substitute(Index q, Index fresh, std::span<const Index> others);
   /// Puts their least value for all factors with a variable outside of `kept`.
   void keep_only(std::span<const Index> kept);
   /// The constant and the least value of each factor: no labelling costs less.

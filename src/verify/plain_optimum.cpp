@@ -147,6 +147,12 @@ class BoundChecker {
       finding.detail = reason_ = "too wide for the plain solver";
       return;
     }
+    const std::vector<Component> components = stage != nullptr ? stage->components : components_before();
+    if (!reaches_all_before(*cost, components, sums_.back().place)) {
+      finding.detail = reason_ =
+          "a criterion before is reached but for rounding, so this bound tells nothing";
+      return;
+    }
     const long double sign = criterion.maximised ? -1 : 1;
     const long double proved = static_cast<long double>((*cost)[sums_.back().place]) / kSteps;
     const long double tolerance = value_of(problem_.delaunay, problem_.scale, criterion).tolerance;
@@ -155,6 +161,14 @@ class BoundChecker {
     judge(bounded && reached, stage != nullptr ? "the proof shows only" : "the optimum is", sign * proved,
           finding);
     if (stage != nullptr && finding.verdict == Verdict::Holds) finding.detail = "by the proof";
+  }
+
+  /// A bound is lexicographic: its component at `place` bounds what is there only if the mesh has, in the
+  /// verifier's own steps, just what the bound has at all places before.
+  [[nodiscard]] bool reaches_all_before(const Cost& bound, const std::vector<Component>& components,
+                                        std::size_t place) const {
+    const Cost reached = cost_of(terms_of(problem_, components), problem_.flipped);
+    return std::equal(bound.begin(), bound.begin() + static_cast<std::ptrdiff_t>(place), reached.begin());
   }
 
   /// A stage of the proof, taken.
@@ -201,7 +215,6 @@ class BoundChecker {
   }
 
   void take(const ProofStage& stage, Stage& taken) {
-    std::vector<std::size_t> places;
     std::size_t place = 0;
     for (std::size_t i = 0; i < stage.criteria; ++i) {
       const auto criterion = plain_criterion(claims_[i].name, problem_.reference);
@@ -212,39 +225,32 @@ class BoundChecker {
         return;
       }
       if (criterion->depends == Depends::OnPlateau) continue;
-      places.push_back(0);
       if (stage.alone && !last) continue;
       if (criterion->combines == Combines::Sum) {
-        taken.components.push_back({.criterion = *criterion, .place = places.back() = ++place});
+        taken.components.push_back({.criterion = *criterion, .place = ++place});
       } else if (last) {
-        taken.components.push_back(no_better_than(claims_[i], *criterion, places.back() = ++place));
+        taken.components.push_back(no_better_than(claims_[i], *criterion, ++place));
       } else {
         taken.components.push_back(worse_than(claims_[i], *criterion));
       }
     }
     taken.bound = take_steps(stage, problem_.quadrilaterals.size(), terms_of(problem_, taken.components),
-                             places, with_pits_ && !stage.alone ? condition_ : nullptr, progress_);
+                             with_pits_ && !stage.alone ? condition_ : nullptr, progress_);
     if (taken.bound.fault.empty() && taken.bound.bound[0] != 0) {
       taken.bound.fault = "the proof takes labels that break a condition";
     }
   }
 
-  /// The count must be positive while all sums before are at what they are claimed to be.
+  /// The count must be positive while all sums before are at what the mesh has.
   void judge_extreme(const Stage& stage, const CriterionClaim& claim, Finding& finding) {
-    bool holds = stage.bound.fault.empty() && stage.bound.bound[stage.components.back().place] > 0;
-    std::size_t next = 0;
-    for (const Component& component : stage.components) {
-      if (component.counts_beyond) continue;
-      while (plain_criterion(claims_[next].name, problem_.reference)->depends == Depends::OnPlateau ||
-             plain_criterion(claims_[next].name, problem_.reference)->combines != Combines::Sum) {
-        ++next;
-      }
-      const long double tolerance =
-          value_of(problem_.delaunay, problem_.scale, component.criterion).tolerance;
-      const long double shown = static_cast<long double>(stage.bound.bound[component.place]) / kSteps;
-      const double claimed = claims_[next++].result * (component.criterion.maximised ? -1 : 1);
-      holds = holds && claimed <= shown + tolerance;
+    const std::size_t place = stage.components.back().place;
+    const bool sound = stage.bound.fault.empty();
+    if (sound && !reaches_all_before(stage.bound.bound, stage.components, place)) {
+      finding.detail = reason_ =
+          "a criterion before is reached but for rounding, so this bound tells nothing";
+      return;
     }
+    const bool holds = sound && stage.bound.bound[place] > 0;
     finding.verdict = holds ? Verdict::Holds : Verdict::Broken;
     finding.detail =
         holds ? "by the proof"
@@ -287,6 +293,11 @@ class BoundChecker {
       const auto cost = least(components);
       if (!cost) {
         finding.detail = reason_ = "too wide for the plain solver";
+        return;
+      }
+      if (!reaches_all_before(*cost, components, sums_.size() + 1)) {
+        finding.detail = reason_ =
+            "a criterion before is reached but for rounding, so this bound tells nothing";
         return;
       }
       judge((*cost)[sums_.size() + 1] > 0, "a labelling is better than", claim.bound, finding);

@@ -4,16 +4,15 @@
 // there, are less than the condition that everything is connected; so the least cost under them is a bound.
 // Under them, a label that costs at most d more than the other one, whatever the rest, may be taken: that
 // raises the least cost by at most d, which is taken off again. (Clauses are costs of the first component: if
-// a label breaks one, d shows it.) Elimination leaves the least cost as it is; copies that need not agree,
-// and minima taken one by one, only lower it; moving costs between copies of a variable changes nothing where
-// they agree.
+// a label breaks one, d shows it.) Elimination leaves the least cost as it is; minima taken one by one only
+// lower it. All this is of costs as a whole, compared component by component from the first: a component
+// tells something only where those before are reached.
 #include "verify/plain_proof.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <deque>
 #include <map>
 #include <stdexcept>
@@ -31,11 +30,10 @@ struct Refused : std::runtime_error {
 class Machine {
  public:
   Machine(const ProofStage& stage, std::size_t variables, std::vector<Factor> factors,
-          const std::vector<std::size_t>& places, const PlainPlateaus* plateaus, Progress& progress)
+          const PlainPlateaus* plateaus, Progress& progress)
       : stage_(stage),
         variables_(variables),
         sum_(variables, std::move(factors)),
-        places_(places),
         plateaus_(plateaus),
         progress_(progress) {
     sum_.split_loose_pairs();
@@ -65,10 +63,6 @@ class Machine {
         return;
       case StepKind::Forest:
         return forest(step);
-      case StepKind::Copy:
-        return copy(step);
-      case StepKind::Share:
-        return share(step);
       case StepKind::Conflict:
         return conflict(step);
     }
@@ -185,41 +179,6 @@ class Machine {
     lost_ = minus(lost_, plateaus_->links().least_forests(forests_, rise));
   }
 
-  void copy(const ProofStep& step) {
-    if (step.numbers.size() < 2) throw Refused("a copy needs its original");
-    if (original_of_.empty()) sum_.split_pairs();
-    const Index original = open(step.numbers[1]);
-    if (step.numbers[0] == static_cast<std::int64_t>(sum_.size()))
-      original_of_[sum_.add_variable()] = original;
-    const Index fresh = open(step.numbers[0]);
-    const auto known = original_of_.find(fresh);
-    if (known == original_of_.end() || known->second != original) {
-      throw Refused(fmt::format("{} is no copy of {}", fresh, original));
-    }
-    std::vector<Index> others;
-    for (std::size_t i = 2; i < step.numbers.size(); ++i) others.push_back(open(step.numbers[i]));
-    std::sort(others.begin(), others.end());
-    sum_.substitute(original, fresh, others);
-  }
-
-  void share(const ProofStep& step) {
-    if (step.numbers.size() != 4) throw Refused("a share needs copy, original, level and amount");
-    const Index fresh = open(step.numbers[0]), original = open(step.numbers[1]);
-    const auto known = original_of_.find(fresh);
-    if (known == original_of_.end() || known->second != original) {
-      throw Refused(fmt::format("{} is no copy of {}", fresh, original));
-    }
-    const auto level = static_cast<std::size_t>(step.numbers[2]);
-    if (level >= places_.size()) throw Refused("there is no such level");
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;  // so that nothing overflows
-    shared_ += static_cast<std::uint64_t>(std::abs(std::clamp<std::int64_t>(step.numbers[3], -kMax, kMax)));
-    if (shared_ > kMost) throw Refused("the shares are too large");
-    Cost amount{};
-    amount[places_[level]] = step.numbers[3];
-    sum_.add_cost(fresh, amount);
-    sum_.add_cost(original, minus(Cost{}, amount));
-  }
-
   void conflict(const ProofStep& step) {
     std::vector<Index> kept;
     for (const std::int64_t v : step.numbers) kept.push_back(open(v));
@@ -230,16 +189,12 @@ class Machine {
   const ProofStage& stage_;
   std::size_t variables_;
   FactorSum sum_;
-  const std::vector<std::size_t>& places_;
   const PlainPlateaus* plateaus_;
   Progress& progress_;
   std::size_t line_ = 0;
   Cost lost_{};
-  static constexpr std::int64_t kMax = std::int64_t{1} << 61U;
-  std::uint64_t shared_ = 0;
   std::vector<std::vector<Index>> forests_;
   std::map<Index, bool> in_forest_;
-  std::map<Index, Index> original_of_;
 };
 
 }  // namespace
@@ -265,9 +220,8 @@ std::optional<std::vector<PlainQuadrilateral>> in_order_of(
 }
 
 StageBound take_steps(const ProofStage& stage, std::size_t variables, std::vector<Factor> factors,
-                      const std::vector<std::size_t>& places, const PlainPlateaus* plateaus,
-                      Progress& progress) {
-  Machine machine(stage, variables, std::move(factors), places, plateaus, progress);
+                      const PlainPlateaus* plateaus, Progress& progress) {
+  Machine machine(stage, variables, std::move(factors), plateaus, progress);
   try {
     return {machine.run(), {}};
   } catch (const Refused& refused) {

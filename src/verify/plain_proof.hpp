@@ -19,14 +19,13 @@ std::optional<std::vector<PlainQuadrilateral>> in_order_of(
 
 /// What a stage shows.
 struct StageBound {
-  Cost bound{};       ///< no labelling that meets the conditions costs less
+  Cost bound{};       ///< no labelling that meets the conditions costs less, lexicographically
   std::string fault;  ///< why it shows nothing
 };
 
-/// `factors` are those of the terms in which the stage counts; `places` says which component of the costs the
-/// LEVEL of a share means. `plateaus` is null where pits are no condition. Throws: Error{Cancelled}.
+/// `factors` are those of the terms in which the stage counts; `plateaus` is null where pits are no
+/// condition. Throws: Error{Cancelled}.
 StageBound take_steps(const ProofStage& stage, std::size_t variables, std::vector<Factor> factors,
-                      const std::vector<std::size_t>& places, const PlainPlateaus* plateaus,
-                      Progress& progress);
+                      const PlainPlateaus* plateaus, Progress& progress);
 
 }  // namespace thalweg::verify

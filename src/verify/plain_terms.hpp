@@ -19,6 +19,7 @@ struct PlainProblem {
   const PlainReference* reference = nullptr;
   unsigned order = 1;
   bool structure_known = true;  ///< the quadrilaterals are all there are
+  std::vector<bool> flipped;    ///< of the mesh that is checked: diagonals st
 };
 
 /// One component of the costs: the terms of a sum (less is better), or a count of terms beyond a limit.

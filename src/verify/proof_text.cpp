@@ -16,8 +16,6 @@ constexpr std::array<std::pair<std::string_view, StepKind>, 7> kSteps = {{{"cut"
                                                                           {"fix", StepKind::Fix},
                                                                           {"eliminate", StepKind::Eliminate},
                                                                           {"forest", StepKind::Forest},
-                                                                          {"copy", StepKind::Copy},
-                                                                          {"share", StepKind::Share},
                                                                           {"conflict", StepKind::Conflict}}};
 
 class Reader {

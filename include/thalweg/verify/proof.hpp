@@ -28,11 +28,6 @@
 ///                                   the least over V's labels
 ///     forest V V ...                links between plateaus, without costs in common: a spanning forest of
 ///                                   least cost, all other links taken to be there
-///     copy W V V2 ...               in the cost of exactly V and V2 ..., W stands for V; a bound is all that
-///                                   remains true then. Without V2: V's own cost. W is the next new number,
-///                                   or one that was introduced so
-///     share W V LEVEL AMOUNT        moves an amount from the cost of V+ to that of W+, in steps of 2^-32 of
-///                                   the LEVEL-th criterion but those of pits, counted from 0
 ///     conflict V V ...              costs of other variables count as the least they can be; these are
 ///                                   eliminated in this order: what remains are implications from x to not x
 ///                                   and back, one value below the bound
@@ -48,7 +43,7 @@
 
 namespace thalweg::verify {
 
-enum class StepKind : std::uint8_t { Cut, Fix, Eliminate, Forest, Copy, Share, Conflict };
+enum class StepKind : std::uint8_t { Cut, Fix, Eliminate, Forest, Conflict };
 
 /// One line of a stage. Literals are 2 v + 1 for v+, 2 v for v-; variables and amounts stand as they are.
 struct ProofStep {

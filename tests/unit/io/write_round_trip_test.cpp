@@ -162,12 +162,13 @@ TEST(WriteTin, SidecarsBelongToTheOutput) {
   // With the same CRS they share it.
   write_file(folder.file("a.off"), {.tin = tin, .crs_authority = "EPSG:28992"});
   EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.2dm", "a.off", "a.prj"}));
-  // So none of them changes it for the others.
-  expect_error(ErrorCode::Usage, {"a.prj", "a.off"},
+  // None of them changes it where one of another kind needs it.
+  test::write_text(folder.file("a.shp"), "");
+  expect_error(ErrorCode::Usage, {"a.prj", "a.shp"},
                [&] { write_file(folder.file("a.2dm"), {.tin = tin}, {}, Overwrite::Yes); });
-  std::filesystem::remove(folder.file("a.off"));
+  std::filesystem::remove(folder.file("a.shp"));
   write_file(folder.file("a.2dm"), {.tin = tin}, {}, Overwrite::Yes);
-  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.2dm"}));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"a.2dm", "a.off"}));
 }
 
 TEST(WriteTin, RefusalsListWhatIsKnown) {
