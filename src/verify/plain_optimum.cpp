@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace thalweg::verify {
 
@@ -339,14 +340,14 @@ std::vector<Finding> check_bounds(const PlainProblem& problem, std::span<const C
   if (claims.empty()) return findings;
   if (!problem.structure_known || overlapping(problem)) {
     for (const CriterionClaim& claim : claims) {
-      Finding& finding =
-          findings.emplace_back(claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked,
-                                "only for order 0 and 1, and quadrilaterals that do not overlap");
+      Finding finding{claim.name + (claim.optimal ? ", optimal" : ", bound"), Verdict::NotChecked,
+                      "only for order 0 and 1, and quadrilaterals that do not overlap"};
       if (const auto contradiction =
               find_contradiction(claim, plain_criterion(claim.name, problem.reference))) {
         finding.verdict = Verdict::Broken;
         finding.detail = *contradiction;
       }
+      findings.push_back(std::move(finding));
     }
     return findings;
   }
