@@ -5,6 +5,7 @@
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/geometry/predicates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -38,8 +39,13 @@ class Walk {
   }
 
   FlowPath from(TriangleId t, Point2 p) {
+    for (const VertexId corner : mesh_.triangle(t)) {
+      if (mesh_.point(corner) == p) return from(corner);
+    }
     path_.points.push_back({.xy = p, .z = height_in(t, p)});
-    if (graph_.level(t)) {
+    if (const HalfedgeId edge = edge_at(t, p); edge.valid()) {
+      leave_edge(edge, share_on(edge, p));
+    } else if (graph_.level(t)) {
       arrive(graph_.low_corner(t));
     } else {
       const Strip strip = graph_.strip_of(t);
@@ -64,9 +70,53 @@ class Walk {
     return std::clamp(z, low, high);
   }
 
+  /// The side on which a point lies; or by which it lies so near that the way to where the line of flow meets
+  /// the side across is all rounding: the triangle falls almost along it. None: neither.
+  [[nodiscard]] HalfedgeId edge_at(TriangleId t, Point2 p) const {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (orientation(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), p) == 0) return h;
+    }
+    if (graph_.level(t)) return {};
+    constexpr double kSliver = 1e-9;
+    const Strip strip = graph_.strip_of(t);
+    if (!strip.corner_is_low) return {};
+    const double share = graph_.share_of(t, strip, p);
+    if (strip.at < kSliver && share <= strip.at) return Tin::previous(strip.split);
+    if (1 - strip.at < kSliver && share >= strip.at) return Tin::next(strip.split);
+    return {};
+  }
+
+  /// Where the foot of a point lies on a halfedge's way.
+  [[nodiscard]] double share_on(HalfedgeId h, Point2 p) const {
+    const Point2 a = mesh_.point(mesh_.origin(h)), b = mesh_.point(mesh_.target(h));
+    const double x = b.x - a.x, y = b.y - a.y;
+    return std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / (x * x + y * y), 0.0, 1.0);
+  }
+
+  /// From a point of an edge: along it if it is a channel, else into the triangle that takes water in there.
+  void leave_edge(HalfedgeId h, double at) {
+    const HalfedgeId twin = mesh_.twin(h);
+    const auto takes_in = [&](HalfedgeId side) { return side.valid() && graph_.fall(side) == Fall::In; };
+    if (graph_.is_channel(h)) {
+      side_ = h;
+      at_ = at;
+    } else if (takes_in(h)) {
+      enter(h, at);
+    } else if (takes_in(twin)) {
+      enter(twin, 1 - at);
+    } else {
+      arrive(graph_.low_corner(Tin::triangle_of(h)));  // level on both sides
+    }
+  }
+
+  /// Rounding may have left points before a vertex a little lower.
   void arrive(VertexId v) {
-    path_.points.push_back(
-        {.xy = mesh_.point(v), .z = mesh_.height(v), .along = 0, .edge = {}, .vertex = mesh_.given(v)});
+    const double z = mesh_.height(v);
+    for (auto before = path_.points.rbegin(); before != path_.points.rend() && before->z < z; ++before) {
+      before->z = z;
+    }
+    path_.points.push_back({.xy = mesh_.point(v), .z = z, .along = 0, .edge = {}, .vertex = mesh_.given(v)});
     vertex_ = v;
     side_ = {};
   }
@@ -75,11 +125,12 @@ class Walk {
   void reach(HalfedgeId h, double at) {
     const double za = mesh_.height(mesh_.origin(h)), zb = mesh_.height(mesh_.target(h));
     const double before = path_.points.empty() ? std::max(za, zb) : path_.points.back().z;
-    path_.points.push_back({.xy = between(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), at),
-                            .z = std::min(before, za + at * (zb - za)),
-                            .along = at,
-                            .edge = mesh_.given(h),
-                            .vertex = {}});
+    path_.points.push_back(
+        {.xy = between(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), at),
+         .z = std::min(before, std::clamp(za + at * (zb - za), std::min(za, zb), std::max(za, zb))),
+         .along = at,
+         .edge = mesh_.given(h),
+         .vertex = {}});
     side_ = h;
     at_ = at;
   }
