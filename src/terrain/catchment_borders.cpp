@@ -294,7 +294,12 @@ FlowPoint CatchmentBorders::point(const FlowGraph& graph, std::uint32_t number) 
   }
   const auto [share, side] = points[number - mesh.vertex_count()];
   const Point2 a = mesh.point(mesh.origin(side)), b = mesh.point(mesh.target(side));
-  return {.xy = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)},
+  // Several lines may end beside a vertex nearer than coordinates can tell: there, in whatever order.
+  constexpr double kAtEnd = 1e-12;
+  const Point2 between = {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+  return {.xy = share < kAtEnd       ? a
+                : 1 - share < kAtEnd ? b
+                                     : between,
           .z = 0,
           .along = share,
           .edge = mesh.given(side),

@@ -5,7 +5,6 @@
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/base/error.hpp>
-#include <thalweg/geometry/predicates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -39,9 +38,6 @@ class Walk {
   }
 
   FlowPath from(TriangleId t, Point2 p) {
-    for (const VertexId corner : mesh_.triangle(t)) {
-      if (mesh_.point(corner) == p) return from(corner);
-    }
     path_.points.push_back({.xy = p, .z = height_in(t, p)});
     if (const HalfedgeId edge = edge_at(t, p); edge.valid()) {
       leave_edge(edge, share_on(edge, p));
@@ -59,6 +55,9 @@ class Walk {
  private:
   [[nodiscard]] double height_in(TriangleId t, Point2 p) const {
     const Triangle& c = mesh_.triangle(t);
+    for (const VertexId corner : c) {
+      if (mesh_.point(corner) == p) return mesh_.height(corner);
+    }
     const Point2 o = mesh_.point(c[0]);
     const double x1 = mesh_.point(c[1]).x - o.x, y1 = mesh_.point(c[1]).y - o.y;
     const double x2 = mesh_.point(c[2]).x - o.x, y2 = mesh_.point(c[2]).y - o.y;
@@ -70,20 +69,16 @@ class Walk {
     return std::clamp(z, low, high);
   }
 
-  /// The side on which a point lies; or by which it lies so near that the way to where the line of flow meets
-  /// the side across is all rounding: the triangle falls almost along it. None: neither.
+  /// The side by which a point lies so near that where its line of flow meets it is all rounding: the
+  /// triangle falls almost along it. None: there is none.
   [[nodiscard]] HalfedgeId edge_at(TriangleId t, Point2 p) const {
-    for (std::size_t side = 0; side < 3; ++side) {
-      const HalfedgeId h = Tin::halfedge(t, side);
-      if (orientation(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), p) == 0) return h;
-    }
     if (graph_.level(t)) return {};
     constexpr double kSliver = 1e-9;
     const Strip strip = graph_.strip_of(t);
     if (!strip.corner_is_low) return {};
     const double share = graph_.share_of(t, strip, p);
-    if (strip.at < kSliver && share <= strip.at) return Tin::previous(strip.split);
-    if (1 - strip.at < kSliver && share >= strip.at) return Tin::next(strip.split);
+    if (strip.at > 0 && strip.at < kSliver && share <= strip.at) return Tin::previous(strip.split);
+    if (strip.at < 1 && 1 - strip.at < kSliver && share >= strip.at) return Tin::next(strip.split);
     return {};
   }
 
@@ -123,14 +118,14 @@ class Walk {
 
   // The path is at the share `at` of h, and runs over h out of its triangle.
   void reach(HalfedgeId h, double at) {
-    const double za = mesh_.height(mesh_.origin(h)), zb = mesh_.height(mesh_.target(h));
+    const VertexId a = mesh_.origin(h), b = mesh_.target(h);
+    const double za = mesh_.height(a), zb = mesh_.height(b);
     const double before = path_.points.empty() ? std::max(za, zb) : path_.points.back().z;
+    const Point2 xy = between(mesh_.point(a), mesh_.point(b), at);
+    const double inside = std::clamp(za + at * (zb - za), std::min(za, zb), std::max(za, zb));
+    const double z = xy == mesh_.point(a) ? za : xy == mesh_.point(b) ? zb : inside;
     path_.points.push_back(
-        {.xy = between(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), at),
-         .z = std::min(before, std::clamp(za + at * (zb - za), std::min(za, zb), std::max(za, zb))),
-         .along = at,
-         .edge = mesh_.given(h),
-         .vertex = {}});
+        {.xy = xy, .z = std::min(before, z), .along = at, .edge = mesh_.given(h), .vertex = {}});
     side_ = h;
     at_ = at;
   }
