@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace thalweg {
@@ -120,11 +119,11 @@ OGRLayer& choose_layer(GDALDataset& dataset, const SourceSpec& source, LayerUse 
 
 std::vector<std::string> files_of_source(const std::string& path) {
   namespace fs = std::filesystem;
-  std::vector<std::string> files = {path};
-  for (const char* extension : {".prj", ".dbf", ".shx"}) {
-    const bool any = std::string_view(extension) == ".prj" || fs::path(path).extension() == ".shp";
-    if (any) files.push_back(fs::path(path).replace_extension(extension).string());
-  }
+  const auto beside = [&path](const char* extension) {
+    return fs::path(path).replace_extension(extension).string();
+  };
+  std::vector<std::string> files = {path, beside(".prj")};
+  if (fs::path(path).extension() == ".shp") files.insert(files.end(), {beside(".dbf"), beside(".shx")});
   if (path.starts_with("/vsi")) {  // "/vsizip/folder/archive.zip/file"
     std::string inner = path.substr(std::min(path.find('/', 1), path.size()));
     for (; inner.size() > 1; inner.resize(inner.find_last_of('/'))) {

@@ -4,6 +4,8 @@
 
 #include "io/tin_format.hpp"
 
+#include <thalweg/io/crs.hpp>
+
 #include <cpl_vsi.h>
 
 #include <algorithm>
@@ -94,15 +96,18 @@ std::string read_prj_sidecar(const std::string& path) {
   return std::string(trimmed(read_head(sidecar, kLongest)));
 }
 
-void refuse_shared_prj(const std::string& prj, const std::string& target) {
+bool keeps_prj(const std::string& prj, const std::string& wkt, const std::string& target, Overwrite mode) {
   namespace fs = std::filesystem;
-  if (!fs::exists(prj)) return;
+  if (!fs::exists(prj)) return false;
+  if (!wkt.empty() && means_same_crs(read_prj_sidecar(prj), wkt)) return true;
+  if (mode == Overwrite::No) return false;
   for (const char* extension : {".shp", ".asc", ".bil", ".flt"}) {
     const fs::path other = fs::path(prj).replace_extension(extension);
     if (other == fs::path(target) || !fs::exists(other)) continue;
     throw Error(ErrorCode::Usage, prj + ": is the CRS of " + other.string() + ", and not that of " + target +
                                       "; give the output another name, or remove that");
   }
+  return false;
 }
 
 std::string_view TextScanner::take_word() {

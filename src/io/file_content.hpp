@@ -3,6 +3,7 @@
 /// A whole file in memory, and scanning it as text.
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -30,9 +31,10 @@ std::string read_head(const std::string& path, std::size_t most);
 
 /// The trimmed content of the file beside `path` that ends in .prj, or empty.
 std::string read_prj_sidecar(const std::string& path);
-/// Before the NAME.prj of an output is replaced or removed. Throws: Error{Usage} if another file that has its
-/// CRS from there lies beside it.
-void refuse_shared_prj(const std::string& prj, const std::string& target);
+/// Whether the .prj of an output is there already and says the same as `wkt` (empty: no CRS): then it stays,
+/// it may be of another format of the same name. Throws: Error{Usage} if it says something else, and is to be
+/// overwritten, but another file beside it has its CRS from there.
+bool keeps_prj(const std::string& prj, const std::string& wkt, const std::string& target, Overwrite mode);
 
 /// Reads words and numbers off a text, and knows the line for its errors.
 class TextScanner {

@@ -87,15 +87,11 @@ void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, 
     }
     const std::string beside = std::filesystem::path(target_).replace_filename(name).string();
     std::erase(stale, beside);
-    if (from.ends_with(".prj") && std::filesystem::is_regular_file(beside) &&
-        means_same_crs(read_prj_sidecar(beside), read_prj_sidecar(from))) {
-      continue;  // of another format of the same name
-    }
-    if (mode == Overwrite::Yes && from.ends_with(".prj")) refuse_shared_prj(beside, target_);
+    if (from.ends_with(".prj") && keeps_prj(beside, read_prj_sidecar(from), target_, mode)) continue;
     copy_out(from, pending.add(beside, mode), beside);
   }
   for (const std::string& file : stale) {
-    if (mode == Overwrite::Yes && file.ends_with(".prj")) refuse_shared_prj(file, target_);
+    if (file.ends_with(".prj")) keeps_prj(file, {}, target_, mode);
     pending.remove_stale(file, mode);
   }
 }

@@ -117,7 +117,7 @@ bool give_name(const std::string& written, const std::string& target, Overwrite 
 }
 
 // What SQLite may leave beside a database when it is stopped.
-constexpr std::array<const char*, 4> kRemains = {"", "-journal", "-wal", "-shm"};
+constexpr std::array<const char*, 3> kRemains = {"-journal", "-wal", "-shm"};
 
 bool is_database(const fs::path& target) {
   return target.extension() == ".gpkg";
@@ -132,7 +132,7 @@ void refuse_open_database(const std::string& target) {
     if (not_there || size == 0) continue;
     throw Error(ErrorCode::WriteFailed,
                 target + ": another program has it open, or did not close it (" + target + remains +
-                    " is not empty); close it there, or open and " + "close it, or choose another name");
+                    " is not empty); close it there, or open and close it, or choose another name");
   }
 }
 
@@ -173,6 +173,7 @@ PendingOutputs::~PendingOutputs() {
 void PendingOutputs::remove_written() const noexcept {
   for (const Output& output : outputs_) {
     if (!output.is_file()) continue;
+    ::unlink(output.written.c_str());
     for (const char* remains : kRemains) ::unlink((output.written + remains).c_str());
   }
 }
@@ -267,8 +268,8 @@ void PendingOutputs::commit() {
   for (const std::string& stale : stale_) ::unlink(stale.c_str());
   for (Output& output : outputs_) {
     if (!output.is_file()) continue;
-    for (const char* remains : kRemains) {
-      if (is_database(output.target) && *remains != 0) ::unlink((output.target + remains).c_str());
+    if (is_database(output.target)) {
+      for (const char* remains : kRemains) ::unlink((output.target + remains).c_str());
     }
     if (!give_name(output.written, output.target, output.mode)) {
       if (errno == EEXIST) throw exists_already(output.target);

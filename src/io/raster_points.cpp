@@ -59,8 +59,8 @@ class RasterPoints : public SourceReader {
     const std::string unit = band_->GetUnitType();
     if (!unit.empty() && !metres_of_unit(unit)) {
       run.note(name() + ": the unit of its heights, '" + unit +
-               "', is not known; they are taken to be in that of " +
-               "the CRS (another: --a-crs with a compound CRS, as EPSG:2994+5703)");
+               "', is not known; they are taken to be in that of the CRS (another: --a-crs with a compound "
+               "CRS, as EPSG:2994+5703)");
     }
     has_mask_ = (band_->GetMaskFlags() & GMF_ALL_VALID) == 0;
     scale_ = band_->GetScale();

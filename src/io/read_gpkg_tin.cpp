@@ -8,6 +8,7 @@
 //    the vertex's is no part of this surface.
 // 3. Constraint edges: the rows of "edges" with a kind, else the segments of "breaklines".
 #include "base/release.hpp"
+#include "io/antimeridian.hpp"
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
 #include "io/spatial_reference.hpp"
@@ -254,10 +255,9 @@ class GpkgReader {
     const char* const description = layer.GetMetadataItem("DESCRIPTION");
     if (reference == nullptr || reference->IsGeographic() == 0 || description == nullptr) return;
     const std::optional<double> west = parse_turned(description);
-    const double period = 2 * std::numbers::pi / reference->GetAngularUnits();
-    for (Point2& p : tin_.points) {
-      if (west && (p.x < *west || p.x > *west + period)) p.x -= period * std::floor((p.x - *west) / period);
-    }
+    if (!west) return;
+    const Turn turn{*west, 2 * std::numbers::pi / reference->GetAngularUnits()};
+    for (Point2& p : tin_.points) p = turn(p);
   }
 
   const std::string& path_;

@@ -6,7 +6,6 @@
 #include <thalweg/io/write_tin.hpp>
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,12 +54,6 @@ struct TinWriteJob {
     return view.written_xy.empty() ? view.tin.points() : view.written_xy;
   }
 };
-
-/// What the layer of triangles says of itself where its longitudes run on across the antimeridian: from where
-/// on those of the TIN lie in one turn.
-std::string describe_turned(double west);
-/// The inverse; nothing if the layer says nothing of that.
-std::optional<double> parse_turned(std::string_view description);
 
 struct TinFormat {
   FormatInfo info;

@@ -11,8 +11,8 @@
 // Longitudes on both sides of the antimeridian run on beyond 180 or below -180, whichever is narrower: a
 // triangle or line that jumped would be drawn around the whole earth.
 // Triangles are polygons everywhere: OGR's type TIN is refused or lost by half of the drivers.
+#include "io/antimeridian.hpp"
 #include "io/edge_chains.hpp"
-#include "io/file_content.hpp"
 #include "io/gdal_session.hpp"
 #include "io/memory_folder.hpp"
 #include "io/spatial_reference.hpp"
@@ -20,14 +20,12 @@
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <memory>
 #include <numbers>
@@ -41,8 +39,6 @@ struct Field {
   const char* name;
   OGRFieldType type;
 };
-
-constexpr std::string_view kTurned = "Longitudes run on across the antimeridian; those of the TIN lie from ";
 
 const char* conflict_word(Conflict::Kind kind) {
   switch (kind) {
@@ -58,36 +54,6 @@ const char* conflict_word(Conflict::Kind kind) {
       return "lake";
   }
   return "unknown";
-}
-
-/// One turn of longitude.
-struct Turn {
-  double west, period;
-  [[nodiscard]] Point2 operator()(Point2 p) const {
-    if (p.x < west || p.x >= west + period) p.x -= period * std::floor((p.x - west) / period);
-    return p;
-  }
-};
-
-/// The turn of longitude in which positions are together that lie on both sides of the antimeridian (or of
-/// Greenwich, if longitudes run from 0); their middle is within half a turn of Greenwich. None: they can stay
-/// as they are.
-std::optional<Turn> across_antimeridian(std::span<const Point2> xy, double period) {
-  const auto sides = [xy](const auto& turn) {
-    const auto [west, east] = std::ranges::minmax(xy, {}, [&](Point2 p) { return turn(p).x; });
-    return std::pair(turn(west).x, turn(east).x);
-  };
-  if (xy.empty()) return {};
-  const auto [west, east] = sides(std::identity());
-  if (east - west <= period / 2) return {};
-  for (const double start : {0.0, -period / 2}) {
-    const auto [low, high] = sides(Turn{start, period});
-    if (high - low >= east - west) continue;
-    // To a hundredth of a degree, as that of MetricFrame, so that all layers are on one side.
-    const double step = period / 36000, middle = std::round((low + high) / 2 / step) * step;
-    return Turn{std::remainder(middle, period) - period / 2, period};
-  }
-  return {};
 }
 
 enum class Transactions : std::uint8_t { One, None };
@@ -116,9 +82,9 @@ class LayerWriter {
       reference_ = parse_reference(job.view.crs_authority);
     if (reference_ && reference_->IsGeographic() != 0) {
       turn_ = across_antimeridian(xy_, 2 * std::numbers::pi / reference_->GetAngularUnits());
-      if (turn_) std::ranges::transform(xy_, std::back_inserter(turned_), *turn_);
       if (turn_) {
         west_ = std::ranges::min(xy_, {}, &Point2::x).x < 0 ? -turn_->period / 2 : 0;
+        std::ranges::transform(xy_, std::back_inserter(turned_), *turn_);
         xy_ = turned_;
       }
     }
@@ -147,8 +113,8 @@ class LayerWriter {
     if (wanted("conflicts") && job_.view.conflicts) write_conflicts();
     if (dataset_->GetLayerCount() == 0) {
       throw Error(ErrorCode::Usage, job_.target +
-                                        ": conflicts are known of what `thalweg build` makes, not of " +
-                                        "a TIN that was read; choose another layer");
+                                        ": conflicts are known of what `thalweg build` makes, not of a "
+                                        "TIN that was read; choose another layer");
     }
     if (format_.transactions == Transactions::One && dataset_->CommitTransaction() != OGRERR_NONE) fail();
     feature_.reset();
@@ -341,15 +307,6 @@ void write_one_layer(const TinWriteJob& job, const char* driver, std::vector<std
 }
 
 }  // namespace
-
-std::string describe_turned(double west) {
-  return fmt::format("{}{}", kTurned, west);
-}
-
-std::optional<double> parse_turned(std::string_view description) {
-  if (!description.starts_with(kTurned)) return std::nullopt;
-  return parse_number(description.substr(kTurned.size()));
-}
 
 void write_gpkg(const TinWriteJob& job) {
   const char* const index = job.options.enabled("SPATIAL_INDEX") ? "SPATIAL_INDEX=YES" : "SPATIAL_INDEX=NO";

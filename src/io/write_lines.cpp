@@ -97,8 +97,8 @@ void write_level_lines(const std::string& path, const LineLayerView& view, const
   const std::string_view name = driver->GetDescription();
   if (view.crs_wkt.empty() && (name == "KML" || name == "LIBKML" || name == "GPX")) {
     throw Error(ErrorCode::BadCrs, path + ": " + std::string(name) +
-                                       " holds longitudes and latitudes, but the " +
-                                       "CRS of the TIN is unknown; give it one (build --a-crs)");
+                                       " holds longitudes and latitudes, but the CRS of the TIN "
+                                       "is unknown; give it one (build --a-crs)");
   }
   const DriverOptions creation = sort_options(*driver, options.creation_options, DriverUse::Vector);
   progress.start_phase(std::string("write ") + driver->GetDescription());

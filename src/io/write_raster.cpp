@@ -86,14 +86,13 @@ GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& vie
 }
 
 /// What the driver made, opened again: some write what nobody can read, or colours instead of heights.
-void check_readable(const std::string& made, const std::string& path, const RasterView& view, double nodata,
+void check_readable(GDALDataset* dataset, const std::string& path, const RasterView& view, double nodata,
                     const GDALDriver& driver) {
   const auto refuse = [&](const std::string& what) {
     return Error(ErrorCode::Unsupported, path + ": the format " + driver.GetDescription() + " " + what +
                                              "; choose another one, such as GTiff (.tif)");
   };
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER));
-  if (!dataset) throw refuse("makes no file that can be opened again");
+  if (dataset == nullptr) throw refuse("makes no file that can be opened again");
   GDALRasterBand* const band = dataset->GetRasterCount() == 1 ? dataset->GetRasterBand(1) : nullptr;
   const bool keeps_values = band != nullptr && band->GetColorTable() == nullptr &&
                             (view.type == RasterType::Byte || band->GetRasterDataType() != GDT_Byte);
@@ -109,16 +108,15 @@ void check_readable(const std::string& made, const std::string& path, const Rast
 
 /// Whether what the driver made says where the cells lie, in which CRS, and the unit of heights if that is
 /// not what the CRS lets one think.
-bool tells_place(const std::string& made, const RasterView& view) {
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(made.c_str(), GDAL_OF_RASTER));
+bool tells_place(GDALDataset* dataset, const std::string& path, const RasterView& view) {
   std::array<double, 6> transform{};
-  if (!dataset || dataset->GetGeoTransform(transform.data()) != CE_None) return false;
+  if (dataset == nullptr || dataset->GetGeoTransform(transform.data()) != CE_None) return false;
   const OGRSpatialReference* const reference = dataset->GetSpatialRef();
   if (view.crs_wkt.empty()) return true;
   if (reference == nullptr || reference->IsEmpty()) return false;
   if (view.metres_per_unit == 0) return true;
   const double unit = metres_of_unit(dataset->GetRasterBand(1)->GetUnitType())
-                          .value_or(describe_reference(*reference, made).vertical_metres_per_unit);
+                          .value_or(describe_reference(*reference, path).vertical_metres_per_unit);
   return std::abs(unit / view.metres_per_unit - 1) < 1e-9;
 }
 
@@ -166,8 +164,9 @@ void write_raster(const std::string& path, const RasterView& view, const WriteOp
     if (!copy) fail(path, session);
     copy.reset();
     if (session.failed()) fail(path, session);
-    if (!sidecar && !tells_place(folder->path(), view)) return std::unique_ptr<MemoryFolder>();
-    check_readable(folder->path(), path, view, nodata, *driver);
+    const GDALDatasetUniquePtr again(GDALDataset::Open(folder->path().c_str(), GDAL_OF_RASTER));
+    if (!sidecar && !tells_place(again.get(), path, view)) return std::unique_ptr<MemoryFolder>();
+    check_readable(again.get(), path, view, nodata, *driver);
     return folder;
   };
   std::unique_ptr<MemoryFolder> folder = make(false);

@@ -90,11 +90,7 @@ void write_sidecar(const std::string& path, const std::string& target, const Tin
                    PendingOutputs& pending, Overwrite mode) {
   const std::string& definition = view.crs_wkt.empty() ? view.crs_authority : view.crs_wkt;
   const std::string text = definition.empty() ? std::string() : prj_text(definition);
-  if (!text.empty() && std::filesystem::is_regular_file(path) &&
-      means_same_crs(read_prj_sidecar(path), text)) {
-    return;
-  }
-  if (mode == Overwrite::Yes) refuse_shared_prj(path, target);
+  if (keeps_prj(path, text, target, mode)) return;
   if (definition.empty()) {
     pending.remove_stale(path, mode);
     return;

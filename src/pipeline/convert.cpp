@@ -232,10 +232,10 @@ void note_false_crs(const ConvertConfig& config, const CrsInfo& crs, ConvertResu
   std::string format =
       config.format.empty() ? std::filesystem::path(config.output).extension().string() : config.format;
   std::ranges::transform(format, format.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (crs.known || (format.find("json") == std::string::npos)) return;
+  if (crs.known || format.find("json") == std::string::npos) return;
   result.notes.push_back(config.output +
-                         ": the CRS is unknown, but whoever reads GeoJSON takes it for longitude " +
-                         "and latitude; give the TIN a CRS (build --a-crs), or write another format");
+                         ": the CRS is unknown, but whoever reads GeoJSON takes it for longitude and "
+                         "latitude; give the TIN a CRS (build --a-crs), or write another format");
 }
 
 }  // namespace
@@ -243,7 +243,9 @@ void note_false_crs(const ConvertConfig& config, const CrsInfo& crs, ConvertResu
 ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
   ConvertResult result;
   result.kind = kind_of(config);
-  PendingOutputs outputs({config.input, config.profile ? config.profile->lines.path : std::string()});
+  std::vector<std::string> sources = {config.input};
+  if (config.profile) sources.push_back(config.profile->lines.path);
+  PendingOutputs outputs(sources);
   progress.start_phase("read");
   const Source source = load_source(config.input, progress);
   result.vertices = source.loaded.tin.vertex_count();

@@ -1,5 +1,7 @@
 #include "pipeline/outlets.hpp"
 
+#include "pipeline/read_in_crs.hpp"
+
 #include <thalweg/base/error.hpp>
 
 #include <fmt/format.h>
@@ -15,11 +17,7 @@ std::vector<Point2> read_places(const std::vector<SourceSpec>& sources, const Cr
   for (const SourceSpec& source : sources) {
     ReadOptions options;
     options.heights = HeightRule::Optional;
-    ReadResult read = read_survey({&source, 1}, {}, options, progress);
-    if (crs.known && read.crs.known) {
-      options.target_crs = crs.wkt;
-      read = read_survey({&source, 1}, {}, options, progress);
-    }
+    const ReadResult read = read_in_crs({&source, 1}, {}, options, crs, progress);
     points.insert(points.end(), read.survey.points.xy.begin(), read.survey.points.xy.end());
   }
   return points;

@@ -1,6 +1,8 @@
 // Lines are straight in the plane of the TIN; distances are metres there.
 #include "pipeline/profile.hpp"
 
+#include "pipeline/read_in_crs.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/terrain/profile.hpp>
 
@@ -13,14 +15,8 @@
 namespace thalweg {
 
 ProfileTable profile_table(const LoadedTin& loaded, const ProfileConfig& config, Progress& progress) {
-  ReadOptions options;
   const LineSource source{config.lines, EdgeKind::Breakline};
-  ReadResult read = read_survey({}, std::span(&source, 1), options, progress);
-  if (loaded.crs.known && read.crs.known) {
-    options.target_crs = loaded.crs.wkt;
-    read = read_survey({}, std::span(&source, 1), options, progress);
-  }
-  const Survey& survey = read.survey;
+  const Survey survey = read_in_crs({}, std::span(&source, 1), {}, loaded.crs, progress).survey;
   progress.start_phase("profile");
   const Plane& plane = loaded.plane;
   const ProfileTracer tracer(loaded.tin);

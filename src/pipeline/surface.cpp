@@ -65,15 +65,14 @@ RunOutputs::RunOutputs(const OutputConfig& config, const std::vector<std::string
   if (!config.problem_path.empty() && std::filesystem::path(config.problem_path).extension() != ".cfn") {
     throw Error(ErrorCode::Usage, "--dump-problem writes .cfn, not '" + config.problem_path + "'");
   }
-  if (!config.changes_path.empty()) {
-    check_features_path(config.changes_path);
-  }
   report = reserve(config.report_path);
   picture = reserve(config.picture_path);
   problem = reserve(config.problem_path);
   proof = reserve(config.proof_path);
   pending.plan(config.path, mode);
-  if (!config.changes_path.empty()) pending.plan(config.changes_path, mode);
+  if (config.changes_path.empty()) return;
+  check_features_path(config.changes_path);
+  pending.plan(config.changes_path, mode);
 }
 
 namespace {

@@ -239,7 +239,9 @@ class Writer {
     Box2 box;
     for (const SwmmNode& node : network_.nodes) box.add(line_of(loaded_, {&node.at, 1}).xy.front());
     for (const Ground& g : grounds_) {
-      for (const Point2 p : joined(g.rings)) box.add(p);
+      for (const std::vector<Point2>& ring : g.rings) {
+        for (const Point2 p : ring) box.add(p);
+      }
     }
     line("\n[MAP]\nDIMENSIONS {} {} {} {}\nUNITS {}", box.x_min, box.y_min, box.x_max, box.y_max,
          loaded_.written.empty() ? "None" : "Degrees");

@@ -120,12 +120,12 @@ class Checker {
     if (!fault) fault = link_sides(mesh_);
     if (!fault) fault = find_unsoundness(mesh_);
     table_.add_fault("the mesh is a triangulation of its points", fault);
-    const std::set<std::pair<Index, Index>> edges = edges_of(mesh_);
-    const auto missing = find_missing_constraint(mesh_, edges);
+    edges_ = edges_of(mesh_);
+    const auto missing = find_missing_constraint(mesh_, edges_);
     table_.add_fault("every constraint edge is an edge of the mesh", missing);
     table_.add_count("vertices", claims_.vertices, mesh_.xy.size());
     table_.add_count("triangles", claims_.triangles, mesh_.triangles.size());
-    table_.add_count("edges", claims_.edges, edges.size());
+    table_.add_count("edges", claims_.edges, edges_.size());
     table_.add_count("constraint edges", claims_.constraint_edges, mesh_.constraints.size());
     if (claims_.digest) {
       const std::string digest = plain_digest(mesh_, written());
@@ -216,7 +216,7 @@ class Checker {
     if (claims_.proof) check_proof(*claims_.proof);
     const std::set<std::pair<Index, Index>> before = edges_of(delaunay_);
     std::size_t flipped = 0;
-    for (const auto& edge : edges_of(mesh_)) flipped += before.contains(edge) ? 0 : 1;
+    for (const auto& edge : edges_) flipped += before.contains(edge) ? 0 : 1;
     if (subject_.order <= 1) table_.add_count("flipped diagonals", claims_.flipped, flipped);
     if (subject_.order == 0) {
       table_.add("the mesh is the constrained Delaunay triangulation",
@@ -291,10 +291,9 @@ class Checker {
   }
 
   [[nodiscard]] std::vector<bool> flipped_quadrilaterals() const {
-    const std::set<std::pair<Index, Index>> edges = edges_of(mesh_);
     std::vector<bool> flipped;
     for (const PlainQuadrilateral& q : quadrilaterals_)
-      flipped.push_back(edges.contains(std::minmax(q.s, q.t)));
+      flipped.push_back(edges_.contains(std::minmax(q.s, q.t)));
     return flipped;
   }
 
@@ -333,6 +332,7 @@ class Checker {
   Progress& progress_;
   std::optional<PlainReference> reference_;
   PlainMesh mesh_;
+  std::set<std::pair<Index, Index>> edges_;  ///< of the mesh
   PlainMesh delaunay_;
   std::vector<PlainQuadrilateral> quadrilaterals_;
   bool orders_known_ = false;

@@ -108,18 +108,33 @@ class BoundChecker {
     finding.detail = holds ? "proved again" : fmt::format("{} {:.17g}", what, static_cast<double>(value));
   }
 
+  /// A bound is lexicographic: its component at a place bounds what is there only if the mesh has, in the
+  /// verifier's own steps, just what the bound has at all places before.
+  struct Bounded {
+    Cost bound{};
+    Cost reached{};  ///< what the mesh has
+
+    [[nodiscard]] bool reaches_all_before(std::size_t place) const {
+      return std::equal(bound.begin(), bound.begin() + static_cast<std::ptrdiff_t>(place), reached.begin());
+    }
+  };
+  static constexpr const char* kNotReached =
+      "a criterion before is reached but for rounding, so this bound tells nothing";
+
   // The least cost under all conditions; none if too wide.
-  std::optional<Cost> least(const std::vector<Component>& components) {
+  std::optional<Bounded> least(const std::vector<Component>& components) {
     constexpr int kMostRounds = 30;
     const std::vector<Factor> terms = terms_of(problem_, components);
+    const Cost reached = cost_of(terms, problem_.flipped);
     for (int round = 0; round < kMostRounds; ++round) {
       std::vector<Factor> factors = terms;
       factors.insert(factors.end(), clauses_.begin(), clauses_.end());
       const auto optimum =
           minimise(problem_.quadrilaterals.size(), std::move(factors), kWidthLimit, progress_);
-      if (!optimum || !with_pits_) return optimum ? std::optional(optimum->cost) : std::nullopt;
+      if (!optimum) return std::nullopt;
+      if (!with_pits_) return Bounded{optimum->cost, reached};
       std::vector<Factor> more = condition_->broken_clauses(optimum->labels);
-      if (more.empty()) return optimum->cost;
+      if (more.empty()) return Bounded{optimum->cost, reached};
       clauses_.insert(clauses_.end(), more.begin(), more.end());
     }
     return std::nullopt;
@@ -138,24 +153,23 @@ class BoundChecker {
     }
     sums_.push_back({.criterion = criterion, .place = sums_.size() + 1});
     const Stage* stage = stage_of(false);
-    if (stage != nullptr && !stage->bound.fault.empty()) {
+    if (stage != nullptr && !stage->fault.empty()) {
       finding.verdict = Verdict::Broken;
-      finding.detail = stage->bound.fault;
+      finding.detail = stage->fault;
       return;
     }
-    const auto cost = stage != nullptr ? std::optional(stage->bound.bound) : least(components_before());
+    const auto cost = stage != nullptr ? std::optional(stage->shown) : least(components_before());
     if (!cost) {
       finding.detail = reason_ = "too wide for the plain solver";
       return;
     }
-    const std::vector<Component> components = stage != nullptr ? stage->components : components_before();
-    if (!reaches_all_before(*cost, components, sums_.back().place)) {
-      finding.detail = reason_ =
-          "a criterion before is reached but for rounding, so this bound tells nothing";
+    const std::size_t place = sums_.back().place;
+    if (!cost->reaches_all_before(place)) {
+      finding.detail = reason_ = kNotReached;
       return;
     }
     const long double sign = criterion.maximised ? -1 : 1;
-    const long double proved = static_cast<long double>((*cost)[sums_.back().place]) / kSteps;
+    const long double proved = static_cast<long double>(cost->bound[place]) / kSteps;
     const long double tolerance = value_of(problem_.delaunay, problem_.scale, criterion).tolerance;
     const bool bounded = sign * claim.bound <= proved + tolerance;
     const bool reached = !claim.optimal || sign * claim.result <= proved + tolerance;
@@ -164,18 +178,11 @@ class BoundChecker {
     if (stage != nullptr && finding.verdict == Verdict::Holds) finding.detail = "by the proof";
   }
 
-  /// A bound is lexicographic: its component at `place` bounds what is there only if the mesh has, in the
-  /// verifier's own steps, just what the bound has at all places before.
-  [[nodiscard]] bool reaches_all_before(const Cost& bound, const std::vector<Component>& components,
-                                        std::size_t place) const {
-    const Cost reached = cost_of(terms_of(problem_, components), problem_.flipped);
-    return std::equal(bound.begin(), bound.begin() + static_cast<std::ptrdiff_t>(place), reached.begin());
-  }
-
   /// A stage of the proof, taken.
   struct Stage {
-    std::vector<Component> components;
-    StageBound bound;
+    std::size_t place = 0;  ///< of its last criterion
+    Bounded shown;
+    std::string fault;  ///< why it shows nothing
   };
 
   static std::int64_t steps_of(double value, const PlainCriterion& criterion) {
@@ -216,47 +223,49 @@ class BoundChecker {
   }
 
   void take(const ProofStage& stage, Stage& taken) {
-    std::size_t place = 0;
+    std::vector<Component> components;
     for (std::size_t i = 0; i < stage.criteria; ++i) {
       const auto criterion = plain_criterion(claims_[i].name, problem_.reference);
       const bool last = i + 1 == stage.criteria;
       if (!criterion || (i >= leading_ && criterion->depends == Depends::OnPlateau) ||
-          place + 2 > Cost{}.size()) {
-        taken.bound.fault = "the proof has a stage for " + claims_[i].name + ", which no stage can bound";
+          taken.place + 2 > Cost{}.size()) {
+        taken.fault = "the proof has a stage for " + claims_[i].name + ", which no stage can bound";
         return;
       }
       if (criterion->depends == Depends::OnPlateau) continue;
       if (stage.alone && !last) continue;
       if (criterion->combines == Combines::Sum) {
-        taken.components.push_back({.criterion = *criterion, .place = ++place});
+        components.push_back({.criterion = *criterion, .place = ++taken.place});
       } else if (last) {
-        taken.components.push_back(no_better_than(claims_[i], *criterion, ++place));
+        components.push_back(no_better_than(claims_[i], *criterion, ++taken.place));
       } else {
-        taken.components.push_back(worse_than(claims_[i], *criterion));
+        components.push_back(worse_than(claims_[i], *criterion));
       }
     }
-    taken.bound = take_steps(stage, problem_.quadrilaterals.size(), terms_of(problem_, taken.components),
-                             with_pits_ && !stage.alone ? condition_ : nullptr, progress_);
-    if (taken.bound.fault.empty() && taken.bound.bound[0] != 0) {
-      taken.bound.fault = "the proof takes labels that break a condition";
+    std::vector<Factor> factors = terms_of(problem_, components);
+    taken.shown.reached = cost_of(factors, problem_.flipped);
+    StageBound bound = take_steps(stage, problem_.quadrilaterals.size(), std::move(factors),
+                                  with_pits_ && !stage.alone ? condition_ : nullptr, progress_);
+    taken.shown.bound = bound.bound;
+    taken.fault = std::move(bound.fault);
+    if (taken.fault.empty() && bound.bound[0] != 0) {
+      taken.fault = "the proof takes labels that break a condition";
     }
   }
 
   /// The count must be positive while all sums before are at what the mesh has.
   void judge_extreme(const Stage& stage, const CriterionClaim& claim, Finding& finding) {
-    const std::size_t place = stage.components.back().place;
-    const bool sound = stage.bound.fault.empty();
-    if (sound && !reaches_all_before(stage.bound.bound, stage.components, place)) {
-      finding.detail = reason_ =
-          "a criterion before is reached but for rounding, so this bound tells nothing";
+    const bool sound = stage.fault.empty();
+    if (sound && !stage.shown.reaches_all_before(stage.place)) {
+      finding.detail = reason_ = kNotReached;
       return;
     }
-    const bool holds = sound && stage.bound.bound[place] > 0;
+    const bool holds = sound && stage.shown.bound[stage.place] > 0;
     finding.verdict = holds ? Verdict::Holds : Verdict::Broken;
     finding.detail =
         holds ? "by the proof"
-        : !stage.bound.fault.empty()
-            ? stage.bound.fault
+        : !stage.fault.empty()
+            ? stage.fault
             : fmt::format("the proof does not show that nothing is better than {:.17g}", claim.bound);
   }
 
@@ -296,12 +305,12 @@ class BoundChecker {
         finding.detail = reason_ = "too wide for the plain solver";
         return;
       }
-      if (!reaches_all_before(*cost, components, sums_.size() + 1)) {
-        finding.detail = reason_ =
-            "a criterion before is reached but for rounding, so this bound tells nothing";
+      const std::size_t place = sums_.size() + 1;
+      if (!cost->reaches_all_before(place)) {
+        finding.detail = reason_ = kNotReached;
         return;
       }
-      judge((*cost)[sums_.size() + 1] > 0, "a labelling is better than", claim.bound, finding);
+      judge(cost->bound[place] > 0, "a labelling is better than", claim.bound, finding);
     }
     conditions_.push_back(worse_than(claim, criterion));
   }
