@@ -39,6 +39,13 @@ void touch_pages(void* memory, std::size_t bytes) {
   });
 }
 
+void discard_pages(void* memory, std::size_t bytes) noexcept {
+  auto* const begin = static_cast<std::byte*>(memory);
+  const std::size_t before = (kLargePage - reinterpret_cast<std::uintptr_t>(begin) % kLargePage) % kLargePage;
+  if (bytes < before + kLargePage) return;
+  madvise(begin + before, (bytes - before) / kLargePage * kLargePage, MADV_DONTNEED);
+}
+
 void free_pages(void* memory) noexcept {
   std::free(memory);
 }

@@ -6,6 +6,7 @@
 #include <thalweg/base/raw_vector.hpp>
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace thalweg {
@@ -37,6 +38,14 @@ void advise_large_pages(void* memory, std::size_t bytes) noexcept;
 /// Has the system provide memory that nobody has written to yet, on all threads at once: it is cleared before
 /// it is given away, which takes most of the time that one thread needs to fill an array.
 void touch_pages(void* memory, std::size_t bytes);
+
+/// Hands memory back to the system that is still allocated, as far as it is whole large pages: its content is
+/// lost, and may be written anew.
+void discard_pages(void* memory, std::size_t bytes) noexcept;
+template <class T>
+void discard_pages(std::span<T> array) {
+  discard_pages(array.data(), array.size_bytes());
+}
 
 /// Reserves memory on large pages for an array that is empty: where it has to be a common vector, and will be
 /// filled at once.

@@ -3,6 +3,7 @@
 /// The triangles of a Delaunay triangulation in the making: flat, with neighbours, closed to a sphere.
 
 #include <thalweg/geometry/predicates.hpp>
+#include <thalweg/mesh/edge_kind.hpp>
 
 #include <array>
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace thalweg::detail {
 struct alignas(32) Cell {
   std::array<std::uint32_t, 3> vertex{};
   std::array<std::uint32_t, 3> neighbour{};  ///< for each side: the side of the neighbour, as `side_of`
-  std::uint32_t constrained = 0;             ///< bit i: side i is a constraint edge
+  std::array<EdgeKind, 3> kind{};            ///< of each side
   std::uint32_t mark = 0;                    ///< scratch of whoever works on the cells
 };
 

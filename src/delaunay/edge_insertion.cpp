@@ -52,7 +52,7 @@ class EdgeInsertion {
       : at_(at), cells_(cells), progress_(progress), incident_(incident), ours_(ours) {}
 
   /// Changes nothing unless it is inserted.
-  Outcome insert(std::uint32_t a, std::uint32_t b);
+  Outcome insert(const DrawnEdge& edge);
 
  private:
   /// A piece of a chain: from the vertex before it to `to`, with what lies beyond.
@@ -60,7 +60,7 @@ class EdgeInsertion {
     std::uint32_t to = 0;
     std::uint32_t outer = kNone;    ///< the side beyond, of a cell that stays or is already new
     std::uint32_t partner = kNone;  ///< of an edge that hangs into the cavity: its other side's piece
-    bool constrained = false;
+    EdgeKind kind = EdgeKind::None;
   };
 
   /// What one cell at the end of an edge tells of it; nothing of most of them.
@@ -83,7 +83,7 @@ class EdgeInsertion {
   std::uint32_t fill(std::span<const std::uint32_t> chain, std::uint32_t from);
   std::uint32_t make_triangle(std::uint32_t from, const Piece& first, const Piece& second);
   void attach(std::uint32_t side, const Piece& piece);
-  void mark(std::uint32_t side);
+  void mark(std::uint32_t side, EdgeKind kind);
   void legalise();
   void flip(std::uint32_t side);
 
@@ -107,10 +107,10 @@ void EdgeInsertion::note_incident(std::uint32_t cell) {
   }
 }
 
-void EdgeInsertion::mark(std::uint32_t side) {
-  cells_[cell_of(side)].constrained |= 1U << corner_of(side);
+void EdgeInsertion::mark(std::uint32_t side, EdgeKind kind) {
+  cells_[cell_of(side)].kind[corner_of(side)] = kind;
   const std::uint32_t other = cells_[cell_of(side)].neighbour[corner_of(side)];
-  cells_[cell_of(other)].constrained |= 1U << corner_of(other);
+  cells_[cell_of(other)].kind[corner_of(other)] = kind;
 }
 
 std::uint32_t EdgeInsertion::corner_at(std::uint32_t cell, std::uint32_t vertex) const {
@@ -143,9 +143,7 @@ EdgeInsertion::Outcome EdgeInsertion::find_cavity(std::uint32_t leaving, std::ui
   while (true) {
     cavity_.push_back(cell_of(leaving));
     if (!is_ours(cells_[cell_of(leaving)])) return Outcome::NotOurs;
-    if ((cells_[cell_of(leaving)].constrained >> corner_of(leaving) & 1U) != 0) {
-      return Outcome::Fault;
-    }
+    if (is_constraint(cells_[cell_of(leaving)].kind[corner_of(leaving)])) return Outcome::Fault;
     const std::uint32_t entered = cells_[cell_of(leaving)].neighbour[corner_of(leaving)];
     const std::uint32_t corner = corner_of(entered);
     const std::uint32_t apex = cells_[cell_of(entered)].vertex[corner];
@@ -164,8 +162,7 @@ void EdgeInsertion::add_piece(std::uint32_t side, std::vector<std::uint32_t>& ch
   const Cell& cell = cells_[cell_of(side)];
   const std::uint32_t corner = corner_of(side);
   chain.push_back(static_cast<std::uint32_t>(pieces_.size()));
-  pieces_.push_back(
-      {cell.vertex[before(corner)], cell.neighbour[corner], kNone, (cell.constrained >> corner & 1U) != 0});
+  pieces_.push_back({cell.vertex[before(corner)], cell.neighbour[corner], kNone, cell.kind[corner]});
 }
 
 // Counter-clockwise around each half, so a piece runs as the side of the cell of the cavity does.
@@ -209,8 +206,7 @@ void EdgeInsertion::take_pieces(std::uint32_t a, std::uint32_t b) {
 }
 
 void EdgeInsertion::attach(std::uint32_t side, const Piece& piece) {
-  Cell& cell = cells_[cell_of(side)];
-  if (piece.constrained) cell.constrained |= 1U << corner_of(side);
+  cells_[cell_of(side)].kind[corner_of(side)] = piece.kind;
   if (piece.partner == kNone) {
     link(cells_, side, piece.outer);
   } else {
@@ -225,7 +221,7 @@ void EdgeInsertion::attach(std::uint32_t side, const Piece& piece) {
 std::uint32_t EdgeInsertion::make_triangle(std::uint32_t from, const Piece& first, const Piece& second) {
   const std::uint32_t made = unused_.back();
   unused_.pop_back();
-  cells_[made] = {{from, first.to, second.to}, {kNone, kNone, kNone}, 0, 0};
+  cells_[made] = {{from, first.to, second.to}, {kNone, kNone, kNone}, {}, 0};
   attach(side_of(made, 2), first);
   attach(side_of(made, 0), second);
   note_incident(made);
@@ -248,7 +244,7 @@ std::uint32_t EdgeInsertion::fill(std::span<const std::uint32_t> chain, std::uin
       doubtful_.push_back(chord);
       scan_.pop_back();
       scan_.back() = static_cast<std::uint32_t>(pieces_.size());
-      pieces_.push_back({second.to, chord, kNone, false});
+      pieces_.push_back({second.to, chord, kNone, EdgeKind::None});
     }
   }
   THALWEG_ASSERT(scan_.size() == 1);
@@ -264,11 +260,10 @@ void EdgeInsertion::flip(std::uint32_t side) {
   const Cell old_c = cells_[c], old_d = cells_[d];
   const std::uint32_t p = old_c.vertex[i], u = old_c.vertex[after(i)], v = old_c.vertex[before(i)];
   const std::uint32_t q = old_d.vertex[j];
-  const auto bit = [](const Cell& cell, std::uint32_t corner) { return cell.constrained >> corner & 1U; };
   const std::uint32_t beyond_pu = old_c.neighbour[before(i)], beyond_vp = old_c.neighbour[after(i)];
   const std::uint32_t beyond_qv = old_d.neighbour[before(j)], beyond_uq = old_d.neighbour[after(j)];
-  cells_[c] = {{p, u, q}, {}, bit(old_d, after(j)) | bit(old_c, before(i)) << 2U, 0};
-  cells_[d] = {{q, v, p}, {}, bit(old_c, after(i)) | bit(old_d, before(j)) << 2U, 0};
+  cells_[c] = {{p, u, q}, {}, {old_d.kind[after(j)], EdgeKind::None, old_c.kind[before(i)]}, 0};
+  cells_[d] = {{q, v, p}, {}, {old_c.kind[after(i)], EdgeKind::None, old_d.kind[before(j)]}, 0};
   link(cells_, side_of(c, 0), beyond_uq);
   link(cells_, side_of(c, 2), beyond_pu);
   link(cells_, side_of(d, 0), beyond_vp);
@@ -289,7 +284,7 @@ void EdgeInsertion::legalise() {
     doubtful_.pop_back();
     const Cell& cell = cells_[cell_of(side)];
     const std::uint32_t corner = corner_of(side);
-    if ((cell.constrained >> corner & 1U) != 0) continue;
+    if (is_constraint(cell.kind[corner])) continue;
     const std::uint32_t other = cell.neighbour[corner];
     const std::uint32_t apex = cells_[cell_of(other)].vertex[corner_of(other)];
     if (apex == at_.infinity() || cell.vertex[corner] == at_.infinity()) continue;
@@ -299,7 +294,8 @@ void EdgeInsertion::legalise() {
   }
 }
 
-EdgeInsertion::Outcome EdgeInsertion::insert(std::uint32_t a, std::uint32_t b) {
+EdgeInsertion::Outcome EdgeInsertion::insert(const DrawnEdge& edge) {
+  auto [a, b] = edge.ends;
   if (!ours_.contains(a) || !ours_.contains(b)) return Outcome::NotOurs;
   std::uint32_t cell_at_a = incident_[a], cell_at_b = incident_[b];
   Look found = look(cell_at_a, a, b);
@@ -311,7 +307,7 @@ EdgeInsertion::Outcome EdgeInsertion::insert(std::uint32_t a, std::uint32_t b) {
   }
   if (found.inside != kNone) return Outcome::Fault;
   if (found.along != kNone) {
-    mark(found.along);
+    mark(found.along, edge.kind);
     return Outcome::Inserted;
   }
   if (const Outcome outcome = find_cavity(found.leaving, a, b); outcome != Outcome::Inserted) return outcome;
@@ -321,7 +317,7 @@ EdgeInsertion::Outcome EdgeInsertion::insert(std::uint32_t a, std::uint32_t b) {
   const std::uint32_t on_left = fill(left_, b);
   const std::uint32_t on_right = fill(right_, a);
   link(cells_, on_left, on_right);
-  mark(on_left);
+  mark(on_left, edge.kind);
   legalise();
   return Outcome::Inserted;
 }
@@ -351,8 +347,7 @@ Rest insert_own(EdgeInsertion insertion, std::span<const DrawnEdge> edges, const
   Rest rest;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (i % kStepsBetweenChecks == 0) progress.check();
-    const auto& [a, b] = edges[i].ends;
-    const auto outcome = insertion.insert(a, b);
+    const auto outcome = insertion.insert(edges[i]);
     if (outcome == EdgeInsertion::Outcome::NotOurs) rest.edges.push_back(edges[i]);
     if (outcome != EdgeInsertion::Outcome::Fault) continue;
     rest.fault = edges[i].ends;

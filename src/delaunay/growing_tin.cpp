@@ -60,7 +60,7 @@ void GrowingTin::start(const Tin& tin, std::span<const std::uint32_t> ids, Progr
     cell.vertex[i % 3] = ids[tin.origin(h).index()];
     const std::uint32_t corner = corner_of(side_at(h));
     cell.neighbour[corner] = tin.on_rim(h) ? kNoSide : side_at(tin.twin(h));
-    if (tin.constrained(h)) cell.constrained |= 1U << corner;
+    cell.kind[corner] = tin.kind(h);
     if (tin.on_rim(h) || tin.point(tin.origin(h)) < tin.point(tin.target(h))) cell.mark |= 1U << corner;
   }
   waiting_.assign(cells_.size(), {});
@@ -245,10 +245,10 @@ void GrowingTin::dig(std::uint32_t v) {
     const Cell& cell = cells_[cell_of(side)];
     const std::uint32_t corner = corner_of(side);
     const std::uint32_t outer = cell.neighbour[corner];
-    const bool constrained = (cell.constrained >> corner & 1U) != 0;
-    if (constrained || outer == kNoSide || !conflicts(cell_of(outer), xy_[v])) {
+    const EdgeKind kind = cell.kind[corner];
+    if (is_constraint(kind) || outer == kNoSide || !conflicts(cell_of(outer), xy_[v])) {
       const bool owned = (cell.mark >> corner & 1U) != 0;
-      rim_.push_back({cell.vertex[after(corner)], cell.vertex[before(corner)], outer, constrained, owned});
+      rim_.push_back({cell.vertex[after(corner)], cell.vertex[before(corner)], outer, kind, owned});
       continue;
     }
     cavity_.push_back(cell_of(outer));
@@ -288,7 +288,7 @@ void GrowingTin::fill(std::uint32_t v, bool open) {
     cells_[made] = {
         {v, side.from, side.to},
         {side.outer, last ? kNoSide : side_of(following, 2), first ? kNoSide : side_of(previous, 1)},
-        side.constrained ? 1U : 0U,
+        {side.kind},
         (side.owned ? 1U : 0U) | (last ? 2U : 0U) | 4U};
     if (side.outer != kNoSide)
       cells_[cell_of(side.outer)].neighbour[corner_of(side.outer)] = side_of(made, 0);

@@ -56,7 +56,7 @@ class GrowingTin {
   struct RimSide {
     std::uint32_t from = 0, to = 0;
     std::uint32_t outer = kNoSide;
-    bool constrained = false;
+    EdgeKind kind = EdgeKind::None;
     bool owned = false;  ///< what lies on it belongs to the cell within
   };
 

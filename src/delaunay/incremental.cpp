@@ -82,9 +82,9 @@ class Insertion {
 void Insertion::start(std::array<std::uint32_t, 3> corners) {
   const std::uint32_t first = next_cell_;
   next_cell_ += 4;
-  cells_[first] = {corners, {}, 0, 0};
+  cells_[first] = {corners, {}, {}, 0};
   for (std::uint32_t i = 0; i < 3; ++i) {
-    cells_[first + 1 + i] = {{at_.infinity(), corners[before(i)], corners[after(i)]}, {}, 0, 0};
+    cells_[first + 1 + i] = {{at_.infinity(), corners[before(i)], corners[after(i)]}, {}, {}, 0};
   }
   for (std::uint32_t i = 0; i < 3; ++i) {
     link(cells_, side_of(first, i), side_of(first + 1 + i, 0));
@@ -160,7 +160,7 @@ void Insertion::insert(std::uint32_t v) {
     const std::uint32_t corner = corner_of(outer);
     const std::uint32_t from = beyond.vertex[before(corner)];
     const std::uint32_t to = beyond.vertex[after(corner)];
-    cells_[made] = {{v, from, to}, {outer, side_of(following, 2), side_of(previous, 1)}, 0, 0};
+    cells_[made] = {{v, from, to}, {outer, side_of(following, 2), side_of(previous, 1)}, {}, 0};
     beyond.neighbour[corner] = side_of(made, 0);
     if (from != infinity && to != infinity) last_ = made;
     previous = made;

@@ -4,12 +4,13 @@
 // 2. Delaunay triangulation of the vertices (flat_delaunay.cpp), then constraint edges (edge_insertion.cpp).
 //    Both decide by the tie rule, which makes the outcome unique: no order matters.
 // 3. Finite cells become triangles of the vertices as they were given, sorted where they lie.
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "edge_insertion.hpp"
 #include "engine.hpp"
 #include "flat_delaunay.hpp"
-#include "mesh/sort_triangles.hpp"
+#include "mesh/link_triangles.hpp"
 #include "spatial_order.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -30,9 +31,8 @@ constexpr std::size_t kBlock = 8192;
 
 /// Cells that are no ghosts, as a source for sorting.
 struct FiniteCells {
-  std::span<const Cell> cells;
+  std::span<Cell> cells;
   std::uint32_t infinity = 0;
-  std::span<const DrawnEdge> edges;  ///< those that were inserted, sorted
 
   [[nodiscard]] std::size_t size() const { return cells.size(); }
   [[nodiscard]] bool exists(std::size_t c) const {
@@ -44,11 +44,8 @@ struct FiniteCells {
     const std::uint32_t side = cells[c].neighbour[before(i)];
     return {cell_of(side), after(corner_of(side))};
   }
-  [[nodiscard]] EdgeKind kind(std::size_t c, std::uint32_t i) const {
-    if ((cells[c].constrained >> before(i) & 1U) == 0) return EdgeKind::None;
-    const VertexPair ends = std::minmax(cells[c].vertex[i], cells[c].vertex[after(i)]);
-    return std::ranges::lower_bound(edges, ends, {}, &DrawnEdge::ends)->kind;
-  }
+  [[nodiscard]] EdgeKind kind(std::size_t c, std::uint32_t i) const { return cells[c].kind[before(i)]; }
+  void forget(std::size_t begin) const { discard_pages(cells.subspan(begin)); }
 };
 
 /// The same between vertices of other numbers, sorted.
@@ -85,9 +82,8 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Dr
   const std::uint32_t infinity = at.infinity();
   RawVector<Cell> cells = delaunay_cells(at, progress);
   progress.advance(0.9);
-  std::vector<DrawnEdge> drawn;
   if (!edges.empty() && !cells.empty()) {
-    drawn = order.empty() ? std::vector(edges.begin(), edges.end()) : renumbered(edges, order);
+    const auto drawn = order.empty() ? std::vector(edges.begin(), edges.end()) : renumbered(edges, order);
     if (insert_edges(at, cells, drawn, range_count(points.size()), progress)) {
       // Of all that cannot be, name the first, whatever the number of threads.
       cells = delaunay_cells(at, progress);
@@ -101,9 +97,9 @@ Triangulated triangulate_flat(std::span<const Point2> points, std::span<const Dr
   number.reserve(order.size());
   for (const std::uint32_t v : order) number.emplace_back(v);
   release(order);
-  const FiniteCells finite{cells, infinity, drawn};
-  SortedCorners sorted = sort_triangles(finite, number, points.size(), progress);
-  result.linked = link_triangles(finite, sorted, progress);
+  const FiniteCells finite{cells, infinity};
+  const TriangleOrder sorted = sort_triangles(finite, number, points.size(), progress);
+  result.linked = link_triangles(finite, sorted, number, progress);
   return result;
 }
 

@@ -1,8 +1,8 @@
 // A TIN from another one: under other ids, with other diagonals, with fewer triangles. What is next to what
 // is known, or changes in a few places: nothing is searched.
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
-#include "base/release.hpp"
-#include "mesh/sort_triangles.hpp"
+#include "mesh/link_triangles.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/mesh/change_tin.hpp>
@@ -43,12 +43,17 @@ struct Changing {
   RawVector<HalfedgeId> twins;
   RawVector<EdgeKind> kinds;
 
-  // As a source for sorting, and then, without `triangles`, for linking.
+  // As a source for sorting.
   [[nodiscard]] std::size_t size() const { return twins.size() / 3; }
   [[nodiscard]] bool exists(std::size_t /*t*/) const { return true; }
   [[nodiscard]] VertexId corner(std::size_t t, std::size_t i) const { return triangles[t][i]; }
   [[nodiscard]] SourceSide across(std::size_t t, std::size_t i) const { return side_of(twins[3 * t + i]); }
   [[nodiscard]] EdgeKind kind(std::size_t t, std::size_t i) const { return kinds[3 * t + i]; }
+  void forget(std::size_t begin) {
+    discard_pages(std::span(triangles).subspan(begin));
+    discard_pages(std::span(twins).subspan(3 * begin));
+    discard_pages(std::span(kinds).subspan(3 * begin));
+  }
 };
 
 /// The triangles of a TIN for which `keep` is true, as a source for sorting.
@@ -113,9 +118,8 @@ RenumberedTin renumber(Tin tin, std::span<const VertexId> number, const Progress
   });
   Changing given{std::move(tin.triangles_), std::move(tin.twins_), std::move(tin.kinds_)};
   tin = {};
-  SortedCorners sorted = sort_triangles(given, number, number.size(), progress);
-  release(given.triangles);
-  result.tin = {std::move(points), std::move(heights), link_triangles(given, sorted, progress)};
+  const TriangleOrder sorted = sort_triangles(given, number, number.size(), progress);
+  result.tin = {std::move(points), std::move(heights), link_triangles(given, sorted, number, progress)};
   result.place.resize(sorted.moved.size());
   for_each_block(result.place.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) result.place[t] = TriangleId{sorted.moved[t].index()};
@@ -132,11 +136,10 @@ FlippedTin flip_edges(Tin tin, std::span<const HalfedgeId> edges) {
   }
   Changing changed{std::move(tin.triangles_), std::move(tin.twins_), std::move(tin.kinds_)};
   for (const HalfedgeId h : edges) flip(changed, h);
-  SortedCorners sorted = sort_triangles(changed, {}, tin.vertex_count(), Progress());
-  release(changed.triangles);
-  FlippedTin flipped{
-      .tin = {std::move(tin.points_), std::move(tin.heights_), link_triangles(changed, sorted, Progress())},
-      .diagonals = {edges.begin(), edges.end()}};
+  const TriangleOrder sorted = sort_triangles(changed, {}, tin.vertex_count(), Progress());
+  FlippedTin flipped{.tin = {std::move(tin.points_), std::move(tin.heights_),
+                             link_triangles(changed, sorted, {}, Progress())},
+                     .diagonals = {edges.begin(), edges.end()}};
   for (HalfedgeId& h : flipped.diagonals) h = sorted.moved[Tin::triangle_of(h).index()].halfedge(2);
   return flipped;
 }
@@ -144,8 +147,8 @@ FlippedTin flip_edges(Tin tin, std::span<const HalfedgeId> edges) {
 Tin keep_triangles(const Tin& tin, const std::vector<bool>& keep) {
   if (std::find(keep.begin(), keep.end(), false) == keep.end()) return tin;
   const Kept kept{tin, keep};
-  SortedCorners sorted = sort_triangles(kept, {}, tin.vertex_count(), Progress());
-  return {copy(tin.points()), copy(tin.heights()), link_triangles(kept, sorted, Progress())};
+  const TriangleOrder sorted = sort_triangles(kept, {}, tin.vertex_count(), Progress());
+  return {copy(tin.points()), copy(tin.heights()), link_triangles(kept, sorted, {}, Progress())};
 }
 
 Tin keep_triangles(Tin&& tin, const std::vector<bool>& keep) {

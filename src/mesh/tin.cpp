@@ -6,7 +6,7 @@
 // 3. Where neighbours are not known, the twin of a -> b is looked up in the fan of a.
 #include "base/parallel.hpp"
 #include "base/release.hpp"
-#include "mesh/sort_triangles.hpp"
+#include "mesh/link_triangles.hpp"
 #include "mesh/used_vertices.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -66,7 +66,8 @@ Tin::Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Tr
     : points_(std::move(points)), heights_(std::move(heights)) {
   check_heights(heights_, points_);
   for (const Triangle& t : triangles) check_corners(t, points_.size());
-  triangles_ = sort_triangles(PlainTriangles{triangles}, {}, points_.size(), Progress()).triangles;
+  const PlainTriangles given{triangles};
+  triangles_ = place_triangles(given, sort_triangles(given, {}, points_.size(), Progress()), {}, Progress());
   release(triangles);
   link_halfedges();
   kinds_.assign(halfedge_count(), EdgeKind::None);
