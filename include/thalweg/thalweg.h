@@ -7,9 +7,11 @@
  * `thalweg build`, and builds a TIN, which is read back as arrays or written to a file.
  *
  * Functions that can fail return a status; what went wrong is told, for the calling thread, by
- * thalweg_last_message until its next call that fails. No exception leaves a function, and none aborts. A
- * NULL object is THALWEG_USAGE. Different objects may be used by different threads at once; one object by one
- * thread at a time, but for thalweg_job_cancel. Strings are UTF-8. Arrays are copied, in and out. */
+ * thalweg_last_message until its next call that fails. No exception leaves a function; where memory runs out
+ * the status is THALWEG_OUT_OF_MEMORY, but within the libraries that read options and write reports, which
+ * cannot tell and end the process. A NULL object is THALWEG_USAGE. Different objects may be used by different
+ * threads at once; one object by one thread at a time, but for thalweg_job_cancel. Strings are UTF-8. Arrays
+ * are copied, in and out. */
 
 #include <stddef.h>
 #include <stdint.h>

@@ -26,14 +26,16 @@ struct thalweg_job {
   thalweg_progress callback = nullptr;
   void* user = nullptr;
 
-  thalweg_job() { renew(); }
-  /// A wish to stop is for one build.
-  void renew() {
-    auto fresh = std::make_unique<thalweg::Progress>([this](const std::string& phase, double fraction) {
+  thalweg_job() : progress(fresh_progress()) {}
+  [[nodiscard]] std::unique_ptr<thalweg::Progress> fresh_progress() {
+    return std::make_unique<thalweg::Progress>([this](const std::string& phase, double fraction) {
       if (callback != nullptr && callback(phase.c_str(), fraction, user) != 0) progress->cancel();
     });
+  }
+  /// A wish to stop is for one build.
+  void renew(std::unique_ptr<thalweg::Progress> fresh) noexcept {
     const std::lock_guard lock(mutex);
-    progress = std::move(fresh);
+    progress.swap(fresh);
   }
   void cancel() noexcept {
     const std::lock_guard lock(mutex);
@@ -94,6 +96,17 @@ thalweg_status guarded(const Body& body) noexcept {
 
 void require(const void* argument, const char* what) {
   if (argument == nullptr) throw Error(ErrorCode::Usage, std::string(what) + " is NULL");
+}
+
+/// Reserves memory for more elements so that few at a time cost no more than many. Throws: Error{SizeLimit},
+/// std::bad_alloc.
+template <class T>
+void make_room(std::vector<T>& array, std::size_t more) {
+  if (more > array.max_size() - array.size()) {
+    throw Error(ErrorCode::SizeLimit, std::to_string(more) + " points are more than memory can hold");
+  }
+  if (array.capacity() - array.size() >= more) return;
+  array.reserve(std::max(array.size() + more, std::min(2 * array.capacity(), array.max_size())));
 }
 
 // A command line of build's options alone.
@@ -158,8 +171,9 @@ std::unique_ptr<thalweg_tin> built_by(thalweg_job& job, std::size_t threads, con
   auto result = std::make_unique<thalweg_tin>();
   struct Renewal {
     thalweg_job& job;
-    ~Renewal() { job.renew(); }
-  } const renewal{job};
+    std::unique_ptr<thalweg::Progress> fresh;
+    ~Renewal() { job.renew(std::move(fresh)); }
+  } const renewal{job, job.fresh_progress()};
   result->built = work();
   result->constraints = result->built.tin.constraint_edges();
   result->report = thalweg::to_json(result->built.report);
@@ -216,8 +230,8 @@ thalweg_status thalweg_job_add_points(thalweg_job* job, const double* xyz, size_
     require(job, "the job");
     if (count > 0) require(xyz, "the array of points");
     thalweg::MemorySource& memory = job->memory;
-    memory.xy.reserve(memory.xy.size() + count);
-    memory.z.reserve(memory.z.size() + count);
+    make_room(memory.xy, count);
+    make_room(memory.z, count);
     for (std::size_t i = 0; i < count; ++i) {
       memory.xy.push_back({xyz[3 * i], xyz[3 * i + 1]});
       memory.z.push_back(xyz[3 * i + 2]);

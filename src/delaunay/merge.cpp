@@ -366,6 +366,11 @@ MergedVertices merge_vertices(const Survey& survey, const GroundOptions& options
   std::vector<Point2> with_lines;
   if (!survey.lines.empty()) with_lines = all_positions(survey, point_count + merged.first_of_line.back());
   const std::span<const Point2> all = survey.lines.empty() ? survey.points.xy : with_lines;
+  if (int exponent = 0; options.resolution != 0 && !(std::isfinite(options.resolution) &&
+                                                     std::frexp(options.resolution, &exponent) == 0.5)) {
+    throw Error(ErrorCode::Usage,
+                fmt::format("the resolution has to be 0 or a power of two, not {}", options.resolution));
+  }
   merged.pixel = snapping_pixel(all, options.resolution);
   merged.of_point.resize(point_count);
   merged.of_line_vertex.resize(all.size() - point_count);

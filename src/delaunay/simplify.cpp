@@ -11,6 +11,7 @@
 #include "growing_tin.hpp"
 
 #include <thalweg/base/assert.hpp>
+#include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/simplify.hpp>
 #include <thalweg/delaunay/surface.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
@@ -18,6 +19,8 @@
 #include <thalweg/geometry/predicates.hpp>
 #include <thalweg/mesh/change_tin.hpp>
 #include <thalweg/mesh/rim.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -225,6 +228,11 @@ void Simplifier::take_result(Simplified& result) const {
 }  // namespace
 
 Simplified simplify(const Tin& dense, const SimplifyOptions& options, Progress& progress) {
+  if (options.max_error && !(*options.max_error >= 0)) {
+    throw Error(
+        ErrorCode::Usage,
+        fmt::format("the largest error of a simplified TIN has to be 0 or more, not {}", *options.max_error));
+  }
   return Simplifier(dense, options, progress).run();
 }
 

@@ -202,7 +202,21 @@ struct MetricFrame::Plane {
   }
 };
 
+namespace {
+
+void check_ellipsoid(const Ellipsoid& ellipsoid) {
+  const auto& [radius, flattening] = ellipsoid;
+  if (std::isfinite(radius) && radius > 0 && std::isfinite(flattening) && flattening < 1) return;
+  throw Error(ErrorCode::BadCrs,
+              fmt::format("an ellipsoid with an equatorial radius of {} m and a flattening of {} "
+                          "is none of the earth's",
+                          radius, flattening));
+}
+
+}  // namespace
+
 MetricFrame MetricFrame::for_extent(std::span<const Point2> lonlat_deg, Ellipsoid ellipsoid) {
+  check_ellipsoid(ellipsoid);
   if (lonlat_deg.empty()) {
     throw Error(ErrorCode::EmptyInput, "no positions to choose a metric plane for; give points or lines");
   }
@@ -252,6 +266,7 @@ MetricFrame MetricFrame::for_extent(std::span<const Point2> lonlat_deg, Ellipsoi
 }
 
 MetricFrame MetricFrame::from_proj_string(const std::string& text, Ellipsoid ellipsoid) {
+  check_ellipsoid(ellipsoid);
   const auto value = [&](const std::string& key) -> std::string {
     const std::size_t at = text.find("+" + key + "=");
     if (at == std::string::npos) return {};

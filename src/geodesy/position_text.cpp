@@ -4,6 +4,7 @@
 #include <thalweg/geodesy/position_text.hpp>
 
 #include <GeographicLib/GeoCoords.hpp>
+#include <GeographicLib/UTMUPS.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -107,12 +108,24 @@ Point2 parse_position(std::span<const std::string_view> fields, PositionForm for
     const GeographicLib::GeoCoords position(text, kCentreOfSquare, kLongitudeFirst);
     const Point2 lonlat = {position.Longitude(), position.Latitude()};
     if (!std::isfinite(lonlat.x) || !std::isfinite(lonlat.y)) refuse(text, "it is not finite");
+    if (std::abs(lonlat.x) > 360) refuse(text, "its longitude is beyond 360 degrees");
     return lonlat;
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
     refuse(text, error.what());
   }
+}
+
+int utm_or_ups_epsg(Point2 lonlat_deg) {
+  using GeographicLib::UTMUPS;
+  if (!(std::abs(lonlat_deg.y) <= 90)) {
+    throw Error(ErrorCode::BadCoordinate, "latitude " + std::to_string(lonlat_deg.y) + " is out of range");
+  }
+  const bool north = lonlat_deg.y >= 0;
+  const int zone = UTMUPS::StandardZone(lonlat_deg.y, lonlat_deg.x);
+  if (zone == UTMUPS::UPS) return north ? 5041 : 5042;
+  return (north ? 32600 : 32700) + zone;
 }
 
 }  // namespace thalweg

@@ -11,17 +11,21 @@
 #include "io/spatial_reference.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/geodesy/geodesic.hpp>
 #include <thalweg/io/crs.hpp>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -166,6 +170,7 @@ CrsInfo describe_reference(const OGRSpatialReference& reference, const std::stri
   info.wkt = to_wkt(reference);
   const char* name = reference.GetName();
   info.name = name != nullptr ? name : "";
+  if (info.name.empty() || info.name == "unknown") info.name = "(no name)";  // as of a PROJ string
   info.authority = authority_of(reference);
   info.geographic = !planar;
   if (info.geographic) {
@@ -185,6 +190,32 @@ CrsInfo describe_reference(const OGRSpatialReference& reference, const std::stri
     info.flattening = inverse_flattening > 0 ? 1 / inverse_flattening : 0;
   }
   return info;
+}
+
+std::optional<CrsScale> scale_at(const CrsInfo& crs, Point2 place) {
+  if (!crs.known || crs.geographic) return std::nullopt;
+  const OGRSpatialReference plane = horizontal_part(parse_reference(crs.wkt));
+  GdalSession session;
+  OGRSpatialReference angles;
+  if (!plane.IsProjected() || angles.CopyGeogCSFrom(&plane) != OGRERR_NONE) return std::nullopt;
+  angles.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> way(OGRCreateCoordinateTransformation(&plane, &angles));
+  if (!way) return std::nullopt;
+  constexpr double kStep = 100;  // metres, to each side
+  const double step = kStep / crs.horizontal_metres_per_unit;
+  std::array<double, 5> x{place.x, place.x - step, place.x + step, place.x, place.x};
+  std::array<double, 5> y{place.y, place.y, place.y, place.y - step, place.y + step};
+  if (way->Transform(static_cast<int>(x.size()), x.data(), y.data()) == 0) return std::nullopt;
+  const double degrees = angles.GetAngularUnits() * 180 / std::numbers::pi;
+  std::vector<Point2> lonlat;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    lonlat.push_back({x[i] * degrees + angles.GetPrimeMeridian(), y[i] * degrees});
+  }
+  const auto lengths = geodesic_lengths_m(
+      lonlat, std::vector{std::pair(VertexId{1}, VertexId{2}), std::pair(VertexId{3}, VertexId{4})},
+      {crs.equatorial_radius_m, crs.flattening});
+  if (!(lengths[0] > 0 && lengths[1] > 0)) return std::nullopt;
+  return CrsScale{lonlat[0], 2 * kStep / lengths[0], 2 * kStep / lengths[1]};
 }
 
 CrsInfo describe_crs(const std::string& definition) {

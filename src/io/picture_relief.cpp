@@ -16,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace thalweg {
 
@@ -82,10 +84,13 @@ double mean_slope(const Tin& tin) {
   return area_sum > 0 ? slope_sum / area_sum : 0;
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+/// The least and greatest value but for a share of strays at either end.
+std::pair<double, double> range_without(std::vector<double>& values, double share) {
+  const auto strays = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto low = values.begin() + strays, high = values.end() - 1 - strays;
+  std::nth_element(values.begin(), low, values.end());
+  std::nth_element(low, high, values.end());
+  return {*low, *high};
 }
 
 std::uint32_t to_pixel(Colour c) {
@@ -105,8 +110,7 @@ ReliefStyle::ReliefStyle(const PictureScene& scene) : ramp_(1024) {
   for (std::size_t v = 0; v < scene.tin.vertex_count(); ++v) {
     if (!scene.tin.outgoing(VertexId{v}).empty()) heights.push_back(scene.tin.heights()[v]);
   }
-  z_low_ = quantile(heights, kStray);
-  z_high_ = quantile(heights, 1 - kStray);
+  std::tie(z_low_, z_high_) = range_without(heights, kStray);
   const bool under_water = *std::max_element(heights.begin(), heights.end()) <= 0 && z_low_ < 0;
   const double vertical = scene.vertical_metres_per_unit / scene.horizontal_metres_per_unit;
   const double slope = mean_slope(scene.tin) * vertical;

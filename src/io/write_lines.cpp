@@ -34,6 +34,11 @@ bool add_field(const std::string& path, const LineLayerView& view, OGRLayer& lay
     throw Error(ErrorCode::Usage, path + ": " + format + " has no attributes, so none named '" + view.field +
                                       "' (--field); z holds the heights");
   }
+  const auto taken = [&](const char* name) { return name[0] != '\0' && EQUAL(view.field.c_str(), name); };
+  if (view.field.empty() || taken(layer.GetFIDColumn()) || taken(layer.GetGeometryColumn())) {
+    throw Error(ErrorCode::Usage, path + ": an attribute of " + format + " cannot be named '" + view.field +
+                                      "'; choose another name with --field");
+  }
   OGRFieldDefn field(view.field.c_str(), OFTReal);
   if (layer.CreateField(&field) != OGRERR_NONE) fail(path, session);
   OGRFeatureDefn& fields = *layer.GetLayerDefn();

@@ -6,6 +6,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -94,6 +95,54 @@ FaceSides find_sides(const Tin& tin, const FixedFaces& faces, const Progress& pr
   for (std::uint32_t rank = 0; rank < fresh.size(); ++rank) sides.rank[fresh[rank].edge] = rank;
   progress.check();
   return sides;
+}
+
+std::vector<std::int64_t> term_values(const Tin& tin, const FixedFaces& faces, const FaceSides& sides,
+                                      const TermLevel& level, Scale scale, const Progress& progress) {
+  const bool of_triangles = level.parts.front().declaration->triangle != nullptr;
+  std::vector<std::int64_t> values;
+  std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  const auto note = [&](std::int64_t value, bool fixed) {
+    values.push_back(value);
+    if (fixed) least = std::max(least, value);
+  };
+  std::vector<Face> corners;
+  for (std::uint32_t t = 0; t < faces.triangles.size(); ++t) {
+    corners.push_back(face_of(tin, faces, t, scale));
+    const bool fixed = sides.face[t] == FaceSides::kNoFace;
+    if (of_triangles) note(level.of(corners.back(), scale, tin), fixed);
+  }
+  for (std::uint32_t e = 0; e < faces.edges.size() && !of_triangles; ++e) {
+    if (e % 4096 == 0) progress.check();
+    const std::uint32_t one = 2 * e, other = one + 1;
+    const bool fixed = sides.owner(one) == FaceSides::kNoFace && sides.owner(other) == FaceSides::kNoFace;
+    for (const std::uint32_t left : sides.triangles.row(one)) {
+      for (const std::uint32_t right : sides.triangles.row(other)) {
+        note(level.of(corners[left], corners[right], scale, tin), fixed);
+      }
+    }
+  }
+  std::erase_if(values, [&](std::int64_t value) { return value < least; });
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+WideSteps order_sum_on(const Tin& tin, const FixedFaces& faces) {
+  WideSteps sum = 0;
+  auto at = faces.triangles.begin();  // both are sorted
+  for (const Triangle& corners : tin.triangles()) {
+    while (at != faces.triangles.end() && at->corners < corners) ++at;
+    if (at == faces.triangles.end() || at->corners != corners) {
+      throw Error(
+          ErrorCode::Unsupported,
+          "the constrained Delaunay triangulation itself has a larger order under this definition, so "
+          "no sum of orders can be compared with it; take a definition that knows of lines, such as "
+          "pathcon or sees-opp");
+    }
+    sum += at->order;
+  }
+  return sum;
 }
 
 }  // namespace thalweg

@@ -4,6 +4,7 @@
 
 #include "optimize/cost.hpp"
 #include "optimize/declaration.hpp"
+#include "optimize/sums.hpp"
 #include "optimize/ties.hpp"
 
 #include <thalweg/mesh/tin.hpp>
@@ -103,5 +104,13 @@ struct FaceTerms {
     return weight;
   }
 };
+
+/// What terms of candidates may be under a level without limit, ascending, from the worst that no choice
+/// changes on. Complexity: pairs of candidates at edges.
+std::vector<std::int64_t> term_values(const Tin& tin, const FixedFaces& faces, const FaceSides& sides,
+                                      const TermLevel& level, Scale scale, const Progress& progress);
+
+/// Sum of the orders of a TIN's triangles. Throws: Error{Unsupported} for one that is no candidate.
+WideSteps order_sum_on(const Tin& tin, const FixedFaces& faces);
 
 }  // namespace thalweg

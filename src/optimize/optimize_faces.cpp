@@ -64,7 +64,8 @@ class FaceRun {
         reference_(options.common.reference),
         limits_{options.common.width_limit, options.common.effort},
         progress_(progress),
-        label_limits_{options.most_comparisons, options.few_labels} {
+        label_limits_{options.most_comparisons, options.few_labels},
+        bounds_alone_(options.bounds_alone) {
     progress_.start_phase("search faces");
     search_faces(options.work_limit);
     sides_ = find_sides(delaunay, faces, progress);
@@ -92,8 +93,8 @@ class FaceRun {
   struct Choice {
     std::vector<std::uint32_t> triangles;  ///< candidates, ascending
     Values value{};
-    Values bound{};  ///< of all levels, one after the other
-    Values least{};  ///< of each level by itself
+    Values bound{};                         ///< of all levels, one after the other
+    std::vector<std::uint32_t> face_sizes;  ///< triangles, by face
     std::size_t new_edges = 0;
     SolverFigures figures;
     std::size_t labels = 0, most_labels = 0, partial_faces = 0, largest_face = 0;
@@ -101,6 +102,7 @@ class FaceRun {
   /// An extreme, in steps as in sums.hpp.
   struct Settled {
     std::int64_t limit = 0, bound = 0;
+    std::int64_t least = 0;  ///< of all triangulations
   };
 
   [[nodiscard]] bool is_extreme(std::size_t level) const {
@@ -136,9 +138,7 @@ class FaceRun {
     Choice choice = solve_for(terms, sides, labels);
     if (choice.partial_faces > 0) {
       relax_partial(terms, sides, labels);
-      const Choice relaxed = solve_for(terms, sides, labels);
-      choice.bound = relaxed.bound;
-      choice.least = relaxed.least;
+      choice.bound = solve_for(terms, sides, labels).bound;
     }
     return choice;
   }
@@ -224,7 +224,6 @@ class FaceRun {
       for (std::size_t level = 0; level < Criteria; ++level) {
         choice.value[level] += network.base[level];
         choice.bound[level] += network.base[level];
-        choice.least[level] = network.base[level];  // what is left costs nothing or more
       }
       return choice;
     }
@@ -276,6 +275,7 @@ class FaceRun {
       choice.most_labels = std::max(choice.most_labels, face.unary.size());
       choice.partial_faces += face.complete ? 0 : 1;
       choice.largest_face = std::max<std::size_t>(choice.largest_face, face.triangulations.size);
+      choice.face_sizes.push_back(face.triangulations.size);
       if (face.relaxed) continue;
       const auto triangles = face.triangulations[solution.chosen[f]];
       choice.triangles.insert(choice.triangles.end(), triangles.begin(), triangles.end());
@@ -291,56 +291,6 @@ class FaceRun {
             {delaunay_.heights().begin(), delaunay_.heights().end()},
             std::move(triangles),
             delaunay_.constraint_edges()};
-  }
-
-  /// Sum of the orders of a TIN's triangles.
-  [[nodiscard]] WideSteps order_sum_on(const Tin& tin) const {
-    WideSteps sum = 0;
-    auto at = faces_.triangles.begin();  // both are sorted
-    for (const Triangle& corners : tin.triangles()) {
-      while (at != faces_.triangles.end() && at->corners < corners) ++at;
-      if (at == faces_.triangles.end() || at->corners != corners) {
-        throw Error(
-            ErrorCode::Unsupported,
-            "the constrained Delaunay triangulation itself has a larger order under this definition, so "
-            "no sum of orders can be compared with it; take a definition that knows of lines, such as "
-            "pathcon or sees-opp");
-      }
-      sum += at->order;
-    }
-    return sum;
-  }
-
-  /// What terms of candidates may be, ascending, from the worst that no choice changes on.
-  [[nodiscard]] std::vector<std::int64_t> values_of(const Objective& objective) const {
-    const TermLevel level = level_of(objective, std::nullopt, reference_);
-    const bool of_triangles = level.parts.front().declaration->triangle != nullptr;
-    std::vector<std::int64_t> values;
-    std::int64_t least = std::numeric_limits<std::int64_t>::min();
-    const auto note = [&](std::int64_t value, bool fixed) {
-      values.push_back(value);
-      if (fixed) least = std::max(least, value);
-    };
-    std::vector<Face> corners;
-    for (std::uint32_t t = 0; t < faces_.triangles.size(); ++t) {
-      corners.push_back(face_of(delaunay_, faces_, t, scale_));
-      const bool fixed = sides_.face[t] == FaceSides::kNoFace;
-      if (of_triangles) note(level.of(corners.back(), scale_, delaunay_), fixed);
-    }
-    for (std::uint32_t e = 0; e < faces_.edges.size() && !of_triangles; ++e) {
-      if (e % 4096 == 0) progress_.check();
-      const std::uint32_t one = 2 * e, other = one + 1;
-      const bool fixed = sides_.owner(one) == FaceSides::kNoFace && sides_.owner(other) == FaceSides::kNoFace;
-      for (const std::uint32_t left : sides_.triangles.row(one)) {
-        for (const std::uint32_t right : sides_.triangles.row(other)) {
-          note(level.of(corners[left], corners[right], scale_, delaunay_), fixed);
-        }
-      }
-    }
-    std::erase_if(values, [&](std::int64_t value) { return value < least; });
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
   }
 
   static std::vector<std::optional<Objective>> levels_of(const FaceOptimizeOptions& options) {
@@ -359,7 +309,8 @@ class FaceRun {
   /// Finds the least limit of an extreme that leaves the levels before it at their best.
   void settle(std::size_t level) {
     const Objective& objective = *levels_[level];
-    const std::vector<std::int64_t> values = values_of(objective);
+    const std::vector<std::int64_t> values = term_values(
+        delaunay_, faces_, sides_, level_of(objective, std::nullopt, reference_), scale_, progress_);
     Settled& settled = settled_[level];
     if (values.empty()) return;
     const Choice before = solve_up_to(level);
@@ -367,7 +318,7 @@ class FaceRun {
       return static_cast<std::int64_t>(value_on(tin_of(choice), objective, scale_, reference_, progress_));
     };
     std::int64_t reached = worst(before);
-    settled.bound = values.front();
+    settled.bound = settled.least = values.front();
     auto low = values.begin();
     auto high = std::lower_bound(low, values.end(), reached);
     while (low < high) {
@@ -386,7 +337,27 @@ class FaceRun {
     settled.limit = reached;
   }
 
-  [[nodiscard]] FaceOptimizeResult report(const Choice& choice) const {
+  /// What each level costs at least, on the scale of a choice's values: one after the other says nothing of
+  /// a level where one before it is not proved. Not of extremes and pits.
+  Values least_by_level(std::span<const std::uint32_t> face_sizes) {
+    FaceTerms<Criteria> terms{delaunay_, faces_, sides_, scale_, {}, std::nullopt};
+    for (std::size_t level = 0; level < levels_.size(); ++level) {
+      if (!levels_[level]) {
+        terms.order_level = level;
+      } else if (!is_extreme(level)) {
+        terms.levels[level] = level_of(*levels_[level], std::nullopt, reference_);
+      }
+    }
+    const SideWeights<Criteria> sides = weigh_sides(terms, progress_);
+    std::vector<FaceLabels<Criteria>> labels(faces_.faces.size());
+    for_each_block(labels.size(), kFaces, progress_, [&](std::size_t begin, std::size_t end) {
+      FaceModeller<Criteria> modeller(terms, sides, {});
+      for (std::size_t f = begin; f < end; ++f) labels[f] = relax_face(modeller.model(f), face_sizes[f]);
+    });
+    return build_network(terms, sides, labels, nullptr, {}).base;  // of one label a face, all that it costs
+  }
+
+  [[nodiscard]] FaceOptimizeResult report(const Choice& choice) {
     FaceOptimizeResult result;
     result.faces = faces_.faces.size();
     result.partial_faces = choice.partial_faces;
@@ -401,17 +372,24 @@ class FaceRun {
     for (const std::uint32_t t : choice.triangles) result.triangles.push_back(faces_.triangles[t]);
     result.tin = tin_of(choice);
     bool proved = true;
+    std::optional<Values> least;
     for (std::size_t level = 0; level < reported_; ++level) {
-      result.criteria.push_back(describe(level, choice, result.tin, proved));
-      proved = result.criteria.back().optimal;
+      if (!least && level > 0 && (bounds_alone_ || !proved)) least = least_by_level(choice.face_sizes);
+      result.criteria.push_back(describe(level, choice, result.tin, proved ? nullptr : &*least));
+      const CriterionResult& line = result.criteria.back();
+      if (bounds_alone_)
+        result.bounds_alone.push_back(level == 0 ? line.bound
+                                                 : describe(level, choice, result.tin, &*least).bound);
+      proved = line.optimal;
     }
     return result;
   }
 
   /// As in optimize_first_order: the bound of a level holds if all levels before have reached theirs; else
-  /// that of the level by itself does.
+  /// that of the level by itself does, by `least`.
   [[nodiscard]] CriterionResult describe(std::size_t level, const Choice& choice, const Tin& tin,
-                                         bool proved_before) const {
+                                         const Values* least) const {
+    const bool proved_before = least == nullptr;
     CriterionResult line{.name = "order-sum", .unit = "count", .direction = "min"};
     if (levels_[level]) {
       line.name = levels_[level]->name();
@@ -419,13 +397,13 @@ class FaceRun {
       line.direction = levels_[level]->direction() == Direction::Minimise ? "min" : "max";
     }
     const auto value = [&](const Tin& of) {
-      return levels_[level] ? value_on(of, *levels_[level], scale_, reference_, progress_) : order_sum_on(of);
+      return levels_[level] ? value_on(of, *levels_[level], scale_, reference_, progress_)
+                            : order_sum_on(of, faces_);
     };
     const WideSteps delaunay = value(delaunay_), result = value(tin);
-    const Values& bounds = proved_before ? choice.bound : choice.least;
-    WideSteps bound = result - (choice.value[level] - bounds[level]);
+    WideSteps bound = result - (choice.value[level] - (proved_before ? choice.bound : *least)[level]);
     if (counts_pits(level)) bound = proved_before ? choice.bound[level] : 0;
-    if (is_extreme(level)) bound = settled_[level].bound;
+    if (is_extreme(level)) bound = proved_before ? settled_[level].bound : settled_[level].least;
     const auto as_reported = [&](WideSteps steps) {
       return levels_[level] ? in_units(steps, *levels_[level]) : static_cast<double>(steps);
     };
@@ -448,6 +426,7 @@ class FaceRun {
   SolverLimits limits_;
   Progress& progress_;
   LabelLimits label_limits_;
+  bool bounds_alone_;
   tbb::enumerable_thread_specific<FaceLabeller<Criteria>> labellers_;
   std::vector<SearchedFace> searched_;
   std::vector<std::vector<OrderTriangle>> offered_;  ///< triangulations of the heuristics, once asked for
@@ -470,6 +449,18 @@ void refuse_other_terms(const std::vector<Objective>& criteria) {
 }
 
 }  // namespace
+
+void take_bounds(std::span<const CriterionResult> of, std::span<const double> alone,
+                 std::span<CriterionResult> lines) {
+  bool reached = true;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    CriterionResult& line = lines[i];
+    line.bound = reached ? of[i].bound : alone[i];
+    reached = reached && line.result == line.bound;
+    line.optimal = reached;
+    line.method += "; bound: " + of[i].method;
+  }
+}
 
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                   const FaceOptimizeOptions& options, Progress& progress) {

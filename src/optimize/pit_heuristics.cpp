@@ -326,7 +326,9 @@ FaceOptimizeResult optimize_faces_by(PitHeuristic heuristic, const Tin& delaunay
         ErrorCode::Usage,
         "the flip and the hull heuristic are for local-minima as the first criterion, at a given order");
   }
-  FaceOptimizeResult result = optimize_faces(delaunay, faces, options, progress);
+  FaceOptimizeOptions exact = options;
+  exact.bounds_alone = true;
+  FaceOptimizeResult result = optimize_faces(delaunay, faces, exact, progress);
   result.triangles = remove_pits(delaunay, faces, heuristic, progress);
   std::vector<Triangle> triangles;
   for (const OrderTriangle& t : result.triangles) triangles.push_back(t.corners);
@@ -336,16 +338,14 @@ FaceOptimizeResult optimize_faces_by(PitHeuristic heuristic, const Tin& delaunay
   result.new_edges = count_new_edges(result.tin, delaunay);
   const Scale scale{common.horizontal_metres_per_unit, common.vertical_metres_per_unit};
   const std::string name = heuristic == PitHeuristic::Flip ? "flip" : "hull";
-  bool proved = true;
+  const std::vector<CriterionResult> bounds = result.criteria;
   for (std::size_t i = 0; i < result.criteria.size(); ++i) {
     CriterionResult& line = result.criteria[i];
     line.result = in_units(value_on(result.tin, common.criteria[i], scale, common.reference, progress),
                            common.criteria[i]);
-    proved = proved && line.result == line.bound;
-    line.optimal = proved;
-    line.method = (i == 0 ? name + " heuristic" : "as the " + name + " heuristic leaves it") +
-                  "; bound: " + line.method;
+    line.method = i == 0 ? name + " heuristic" : "as the " + name + " heuristic leaves it";
   }
+  take_bounds(bounds, result.bounds_alone, result.criteria);
   return result;
 }
 

@@ -141,7 +141,8 @@ class EdgeSearch {
   void cut_off(VertexId s, std::size_t i, bool closed, Search& search) const {
     const std::vector<VertexId>& around = search.around;
     const std::size_t count = around.size();
-    const std::size_t reach = std::min(max_order_ + 1, (closed ? count : count - i) - 1);
+    const std::size_t all = (closed ? count : count - i) - 1;
+    const std::size_t reach = max_order_ < all ? max_order_ + 1 : all;
     const Point2 at = ground_.point(s), x = ground_.point(around[i]);
     for (std::size_t step = 2; step <= reach; ++step) {
       const VertexId other = around[(i + step) % count];

@@ -201,7 +201,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   estimate.require(survey.survey.points.xy.size() + read.breakline_vertices);
   report.notes = read.notes;
   report.input.vertices_inserted_on_lines = survey.vertices_inserted_on_lines;
-  note_unknown_crs(read.crs, report);  // what reading assumed it noted itself
+  note_crs(read.crs, survey.survey.points.xy, report.notes);  // what reading assumed it noted itself
   std::vector<Point2> outlets = read_places(config.condition.outlets, read.crs, progress);
   progress.advance(1);
   report.timings_s.read = watch.lap();

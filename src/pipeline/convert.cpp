@@ -134,9 +134,28 @@ const char* band_name(SurfaceValue value) {
   return "";
 }
 
+/// The box of a TIN's vertices, to which centres of cells that lie a hair beyond are moved: sides of cells as
+/// 0.000277777777778 for a third of a ten-thousandth are short of their last digits.
+class Brim {
+ public:
+  Brim(std::span<const Point2> points, double cell) : box_(bounding_box(points)), hair_(1e-6 * cell) {}
+  [[nodiscard]] Point2 operator()(Point2 p) const {
+    return {within(p.x, box_.x_min, box_.x_max), within(p.y, box_.y_min, box_.y_max)};
+  }
+
+ private:
+  [[nodiscard]] double within(double value, double low, double high) const {
+    const double clamped = std::clamp(value, low, high);
+    return std::abs(value - clamped) <= hair_ ? clamped : value;
+  }
+  Box2 box_;
+  double hair_;
+};
+
 void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& result) {
   const RasterGrid grid = make_grid(raster, job.source, result.notes);
   const Plane& plane = job.source.loaded.plane;
+  const Brim brim(job.source.loaded.written_points(), grid.cell);
   const SurfaceSampler sampler(job.source.loaded.tin, plane.scale());
   job.progress.start_phase("sample");
   constexpr std::size_t kStrip = 1U << 20U;
@@ -147,7 +166,7 @@ void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& re
     job.progress.advance(static_cast<double>(row) / static_cast<double>(grid.rows));
     std::vector<Point2> places;
     for (std::size_t r = row; r < std::min(grid.rows, row + strip); ++r) {
-      for (std::size_t c = 0; c < grid.columns; ++c) places.push_back(grid.centre(c, r));
+      for (std::size_t c = 0; c < grid.columns; ++c) places.push_back(brim(grid.centre(c, r)));
     }
     if (plane.projected()) places = plane.to_plane(places, job.progress);
     const std::vector<double> part = sampler.sample(places, raster.value, job.progress);
@@ -157,6 +176,11 @@ void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& re
   result.rows = grid.rows;
   result.cells_without_data = static_cast<std::size_t>(
       std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
+  if (result.cells_without_data == values.size()) {
+    throw Error(ErrorCode::EmptyInput, job.config.output +
+                                           ": the TIN holds the centre of no cell; look at "
+                                           "--extent and --resolution");
+  }
   const RasterView view{
       .grid = grid,
       .values = values,

@@ -125,9 +125,7 @@ void describe(const LoadedTin& loaded, const SurfaceFlow& flow, const PitTable& 
   report.broken_cycles = flow.broken_cycles();
   if (given < report.outlets.size())
     report.notes.emplace_back("several outlets lie at the same vertex: they are one");
-  if (!loaded.crs.known) {
-    report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
-  }
+  note_crs(loaded.crs, loaded.tin.points(), report.notes);
 }
 
 /// By the sink in which water ends.

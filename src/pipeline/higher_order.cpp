@@ -137,15 +137,8 @@ std::vector<std::array<VertexId, 2>> find_new_edges(const Tin& tin, const Tin& d
 }
 
 /// Bounds over more triangulations, and what tells of their faces.
-void take_bounds(const FaceOptimizeResult& all, FaceOptimizeResult& result) {
-  bool proved = true;
-  for (std::size_t i = 0; i < result.criteria.size(); ++i) {
-    CriterionResult& line = result.criteria[i];
-    line.bound = all.criteria[i].bound;
-    proved = proved && line.result == line.bound;
-    line.optimal = proved;
-    line.method += "; bound: " + all.criteria[i].method;
-  }
+void bound_by_all(const FaceOptimizeResult& all, FaceOptimizeResult& result) {
+  take_bounds(all.criteria, all.bounds_alone, result.criteria);
   result.faces = all.faces;
   result.partial_faces = all.partial_faces;
   result.largest_face = all.largest_face;
@@ -163,7 +156,11 @@ HigherOrderChoice choose_triangulations(const Tin& delaunay, const SurfaceFaces&
       labelling.heuristic
           ? optimize_faces_by(*labelling.heuristic, delaunay, faces.faces, choice_of, progress)
           : optimize_faces(delaunay, faces.narrowed ? *faces.narrowed : faces.faces, choice_of, progress);
-  if (faces.narrowed) take_bounds(optimize_faces(delaunay, faces.faces, choice_of, progress), result);
+  if (faces.narrowed) {
+    FaceOptimizeOptions all = choice_of;
+    all.bounds_alone = true;
+    bound_by_all(optimize_faces(delaunay, faces.faces, all, progress), result);
+  }
   HigherOrderChoice choice;
   choice.criteria = std::move(result.criteria);
   std::vector<std::size_t> histogram;

@@ -56,7 +56,12 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
   command.add_option("--reference", arguments.reference,
                      "what vertical-error is measured against: a DEM, or points");
   command.add_option("--effort", arguments.effort, "work limit, a count (default: the optimiser's own)")
-      ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()));
+      ->check([](const std::string& text) {  // CLI11 takes -1 for the largest number
+        std::uint64_t count = 0;
+        const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+        const bool whole = error == std::errc() && rest == text.data() + text.size();
+        return whole && count > 0 ? std::string() : "'" + text + "' is not a whole number from 1 on";
+      });
 }
 
 namespace {

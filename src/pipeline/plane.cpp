@@ -1,6 +1,10 @@
 // The metric plane: a conformal frame about the data where coordinates are angles, else the identity.
 #include "pipeline/plane.hpp"
 
+#include <thalweg/geodesy/position_text.hpp>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -65,6 +69,26 @@ std::vector<Point2> Plane::to_lonlat(std::span<const Point2> written) const {
   std::transform(written.begin(), written.end(), std::back_inserter(lonlat),
                  [&](Point2 p) { return to_lonlat(p); });
   return lonlat;
+}
+
+void note_crs(const CrsInfo& crs, std::span<const Point2> written, std::vector<std::string>& notes) {
+  if (!crs.known) {
+    notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
+  }
+  constexpr double kMuch = 0.02;
+  if (written.empty()) return;
+  const Box2 box = bounding_box(written);
+  const auto scale = scale_at(crs, {(box.x_min + box.x_max) / 2, (box.y_min + box.y_max) / 2});
+  if (!scale || std::max(std::abs(scale->east - 1), std::abs(scale->north - 1)) < kMuch) return;
+  const bool same = std::abs(scale->east - scale->north) < kMuch;
+  notes.push_back(
+      fmt::format("in {} lengths are {} times those on the ground here, heights are not: slopes, angles and "
+                  "areas are not "
+                  "those of the ground. A build with --t-crs {} has them right",
+                  crs.name,
+                  same ? fmt::format("{:.2f}", (scale->east + scale->north) / 2)
+                       : fmt::format("{:.2f} (along x) and {:.2f} (along y)", scale->east, scale->north),
+                  "EPSG:" + std::to_string(utm_or_ups_epsg(scale->lonlat_deg))));
 }
 
 std::vector<Point2> positions_of(const Survey& survey) {

@@ -160,13 +160,8 @@ ReportPits describe_pits(const PitSummary& pits) {
   return {.interior = pits.interior, .boundary = pits.boundary, .lake = pits.lake};
 }
 
-void note_unknown_crs(const CrsInfo& crs, Report& report) {
-  if (crs.known) return;
-  report.notes.emplace_back("the CRS is unknown: coordinates and heights are taken as metres in a plane");
-}
-
-void note_assumptions(const CrsInfo& crs, Report& report) {
-  note_unknown_crs(crs, report);
+void note_assumptions(const CrsInfo& crs, std::span<const Point2> written, Report& report) {
+  note_crs(crs, written, report.notes);
   if (crs.known && !crs.vertical_unit_told && crs.vertical_metres_per_unit != 1) {
     report.notes.emplace_back(
         "the CRS does not tell the unit of heights: that of its coordinates is assumed (" +
@@ -317,7 +312,7 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t>
                   .pits_before = std::move(pits_before),
                   .new_diagonals = std::move(labelled.new_diagonals)};
   BuiltTin& built = outcome.built;
-  labelled = {};
+  labelled = Labelled();
   const std::span<const VertexId> number = terrain.number;
   if (number.empty()) {
     built.orders = std::move(orders);

@@ -82,8 +82,6 @@ ReportTin describe_tin(const Tin& tin, const Plane& plane, std::span<const Point
 ReportCrs describe_plane(const Plane& plane, const CrsInfo& crs);
 ReportPits describe_pits(const PitSummary& pits);
 /// Notes in the report what is taken for granted where the CRS does not tell.
-void note_assumptions(const CrsInfo& crs, Report& report);
-/// Notes that the CRS is unknown, if it is.
-void note_unknown_crs(const CrsInfo& crs, Report& report);
+void note_assumptions(const CrsInfo& crs, std::span<const Point2> written, Report& report);
 
 }  // namespace thalweg

@@ -190,8 +190,9 @@ std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& op
   const double first = std::ceil((low - options.base) / options.interval) - 1;
   const double last = std::floor((top - options.base) / options.interval) + 1;
   if (!(last - first <= kMostHeights)) {
-    throw Error(ErrorCode::Usage, "an interval of " + std::to_string(options.interval) +
-                                      " gives more than a million contours; choose a larger one");
+    throw Error(ErrorCode::Usage,
+                fmt::format("an interval of {} gives more than a million contours; choose a larger one",
+                            options.interval));
   }
   // One more at both ends, because divisions are rounded.
   std::vector<double> heights;

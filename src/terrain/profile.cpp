@@ -4,7 +4,7 @@
 // on
 //    it, is a place of the profile, with the height of the side there.
 // 2. Places are sorted along the piece; its two ends join them where they are on the surface. Two places that
-//    follow each other belong together if the surface holds the middle between them.
+//    follow each other belong together if both are on one triangle: what lies between them meets no edge.
 #include "terrain/triangle_grid.hpp"
 
 #include <thalweg/delaunay/surface.hpp>
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace thalweg {
 
@@ -23,6 +24,12 @@ struct Place {
   double share = 0;  ///< of the piece, 0 to 1
   Point2 xy;
   double z = 0;
+  bool joined = false;  ///< to the place before
+};
+
+/// What a triangle has of the piece.
+struct Stretch {
+  double from = 0, to = 0;
 };
 
 double height_in(const Tin& tin, TriangleId t, Point2 p) {
@@ -50,7 +57,9 @@ struct ProfileTracer::Index {
 
   explicit Index(const Tin& the_tin) : tin(the_tin), grid(the_tin) {}
 
+  /// Places at one side of a triangle, the same for both triangles there.
   void meet_side(Point2 a, Point2 b, HalfedgeId h, std::vector<Place>& places) const {
+    if (!tin.represents_edge(h)) h = tin.twin(h);
     const Point2 p = tin.point(tin.origin(h)), q = tin.point(tin.target(h));
     for (const VertexId v : {tin.origin(h), tin.target(h)}) {
       const Point2 at = tin.point(v);
@@ -65,23 +74,51 @@ struct ProfileTracer::Index {
         {share, xy, interpolate_on_segment(p, tin.height(tin.origin(h)), q, tin.height(tin.target(h)), xy)});
   }
 
+  [[nodiscard]] bool holds(TriangleId t, Point2 p) const {
+    const Triangle& corner = tin.triangle(t);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (orientation(tin.point(corner[i]), tin.point(corner[(i + 1) % 3]), p) < 0) return false;
+    }
+    return true;
+  }
+
   [[nodiscard]] std::vector<Place> places_of(Point2 a, Point2 b) const {
     std::vector<Place> places;
-    for (const auto& [p, share] : {std::pair(a, 0.0), std::pair(b, 1.0)}) {
-      if (const auto t = grid.find(p)) places.push_back({share, p, height_in(tin, *t, p)});
-    }
-    if (a == b) return places;
+    std::vector<Stretch> stretches;
     grid.visit(a, b, [&](TriangleId t) {
-      for (std::size_t side = 0; side < 3; ++side) {
-        const HalfedgeId h = Tin::halfedge(t, side);
-        if (tin.represents_edge(h)) meet_side(a, b, h, places);
-      }
+      const std::size_t first = places.size();
+      if (holds(t, a)) places.push_back({0, a, height_in(tin, t, a)});
+      if (holds(t, b)) places.push_back({1, b, height_in(tin, t, b)});
+      for (std::size_t side = 0; side < 3; ++side) meet_side(a, b, Tin::halfedge(t, side), places);
+      if (places.size() == first) return;
+      const auto [from, to] = std::ranges::minmax(std::span(places).subspan(first), {}, &Place::share);
+      if (from.share < to.share) stretches.push_back({from.share, to.share});
     });
-    std::stable_sort(places.begin(), places.end(),
-                     [](const Place& p, const Place& q) { return p.share < q.share; });
-    const auto same = [](const Place& p, const Place& q) { return p.xy == q.xy || p.share == q.share; };
-    places.erase(std::unique(places.begin(), places.end(), same), places.end());
+    std::ranges::stable_sort(places, {}, &Place::share);
+    std::ranges::sort(stretches, {}, &Stretch::from);
+    join(places, stretches);
     return places;
+  }
+
+  /// Leaves one of the places that rounding puts at the same point; says which follow each other on one
+  /// triangle.
+  static void join(std::vector<Place>& places, std::span<const Stretch> stretches) {
+    std::size_t kept = 0;
+    auto next = stretches.begin();
+    double covered = -1;  // up to here by triangles that start at places before, or here
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Place place = places[i];
+      const bool again =
+          kept > 0 && (places[kept - 1].xy == place.xy || places[kept - 1].share == place.share);
+      if (!again) {
+        places[kept] = place;
+        places[kept].joined = covered >= place.share;
+        ++kept;
+      }
+      for (; next != stretches.end() && next->from <= place.share; ++next)
+        covered = std::max(covered, next->to);
+    }
+    places.resize(kept);
   }
 };
 
@@ -99,14 +136,9 @@ std::vector<ProfilePoint> ProfileTracer::trace(std::span<const Point2> line, con
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (length == 0) continue;
     for (const Place& place : index_->places_of(a, b)) {
-      const ProfilePoint* last = profile.empty() ? nullptr : &profile.back();
-      if (last != nullptr && last->xy == place.xy && open) continue;  // the end of the piece before
-      if (last != nullptr) {
-        const Point2 from = last->distance >= start ? last->xy : a;
-        const Point2 middle{(from.x + place.xy.x) / 2, (from.y + place.xy.y) / 2};
-        open = open && index_->grid.find(middle).has_value();
-        part += open ? 0 : 1;
-      }
+      const bool goes_on = open && (place.joined || profile.back().xy == place.xy);
+      if (goes_on && profile.back().xy == place.xy) continue;  // the end of the piece before
+      if (!goes_on && !profile.empty()) ++part;
       profile.push_back({part, start + length * place.share, place.xy, place.z});
       open = true;
     }

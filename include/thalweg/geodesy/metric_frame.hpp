@@ -41,9 +41,10 @@ enum class Projection { TransverseMercator, LambertConformalConic, Mercator, Pol
 /// to 1e-6 m; (3) the frame depends on the set of positions only, not on their order.
 class MetricFrame {
  public:
-  /// Throws: Error{EmptyInput} without positions; Error{BadCoordinate} for a value that is not finite or out
-  /// of range, or if no projection keeps s below 100 (both poles in one extent, say). Complexity: linear,
-  /// unless the arc is 180 degrees or wider: then a sort.
+  /// Throws: Error{BadCrs} for an ellipsoid that is none; Error{EmptyInput} without positions;
+  /// Error{BadCoordinate} for a value that is not finite or out of range, or if no projection keeps s below
+  /// 100 (both poles in one extent, say). Complexity: linear, unless the arc is 180 degrees or wider: then a
+  /// sort.
   static MetricFrame for_extent(std::span<const Point2> lonlat_deg, Ellipsoid ellipsoid = {});
 
   /// The frame that `proj_string` describes. Throws: Error{BadCrs} for a string that is none of its.

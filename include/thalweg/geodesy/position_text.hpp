@@ -23,4 +23,8 @@ enum class PositionForm {
 /// out of range, and for an MGRS square of 100 km or more.
 Point2 parse_position(std::span<const std::string_view> fields, PositionForm form);
 
+/// The EPSG code of the UTM zone on WGS 84 that a position is in, or near a pole of the polar stereographic
+/// plane (UPS). Throws: Error{BadCoordinate} for a latitude out of range.
+int utm_or_ups_epsg(Point2 lonlat_deg);
+
 }  // namespace thalweg

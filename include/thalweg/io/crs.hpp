@@ -2,6 +2,9 @@
 
 /// What the library needs to know about a coordinate reference system (CRS).
 
+#include <thalweg/geometry/point.hpp>
+
+#include <optional>
 #include <string>
 
 namespace thalweg {
@@ -37,6 +40,17 @@ struct CrsInfo {
 /// Throws: Error{BadCrs} naming the definition, if it is not understood or a CRS without a plane
 /// (earth-centred, vertical).
 CrsInfo describe_crs(const std::string& definition);
+
+/// What a metre is to a projected CRS at a place.
+struct CrsScale {
+  Point2 lonlat_deg;  ///< of the place, from Greenwich
+  double east = 1;    ///< lengths in the plane along x, over those on the ellipsoid
+  double north = 1;   ///< along y
+};
+
+/// The scale of a projected CRS at a place of its plane; none of another CRS, or where PROJ knows no way to
+/// longitude and latitude.
+std::optional<CrsScale> scale_at(const CrsInfo& crs, Point2 place);
 
 /// Whether two definitions, of perhaps different dialects, mean the same CRS; false if one is not understood.
 bool means_same_crs(const std::string& a, const std::string& b);

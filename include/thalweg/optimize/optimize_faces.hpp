@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace thalweg {
@@ -27,12 +28,15 @@ struct FaceOptimizeOptions {
   /// for all.
   std::size_t most_comparisons = 100'000'000;
   std::size_t few_labels = 16;
+  bool bounds_alone = false;  ///< whether to find these, of the result
 };
 
 struct FaceOptimizeResult {
   std::vector<OrderTriangle> triangles;   ///< the result, sorted
   Tin tin;                                ///< made of them
   std::vector<CriterionResult> criteria;  ///< as the options' criteria, and the sum of orders in its place
+  /// By criterion a bound over all triangulations, whatever they reach in the criteria before it.
+  std::vector<double> bounds_alone;
   std::size_t faces = 0;
   std::size_t partial_faces = 0;   ///< those of which only some triangulations were chosen from
   std::size_t largest_face = 0;    ///< triangles
@@ -58,5 +62,11 @@ struct FaceOptimizeResult {
 /// on all threads.
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                   const FaceOptimizeOptions& options, Progress& progress);
+
+/// Bounds the values of another choice by those of one that may have more: `of` are its criteria, `alone` its
+/// `bounds_alone`, which hold where a criterion before is not reached. Says what is `optimal`, and adds to
+/// the methods.
+void take_bounds(std::span<const CriterionResult> of, std::span<const double> alone,
+                 std::span<CriterionResult> lines);
 
 }  // namespace thalweg

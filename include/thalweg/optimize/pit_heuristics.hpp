@@ -29,8 +29,9 @@ bool can_remove_pits(const Tin& delaunay, const FixedFaces& faces);
 std::vector<OrderTriangle> remove_pits(const Tin& delaunay, const FixedFaces& faces, PitHeuristic heuristic,
                                        const Progress& progress);
 
-/// As optimize_faces, but the triangles, the values and `new_edges` are those of the heuristic. Bounds, and
-/// the counts of faces and labels, are those of the exact choice, which is made for them. Criteria after
+/// As optimize_faces, but the triangles, the values and `new_edges` are those of the heuristic. Bounds
+/// (by themselves where a criterion before is not reached), and the counts of faces and labels, are those of
+/// the exact choice, which is made for them. Criteria after
 /// the first are what they happen to be: the heuristics do not look at them.
 /// Throws: as optimize_faces and remove_pits; Error{Usage} if the first criterion is not local-minima, or a
 /// sum of orders is to be minimised.
