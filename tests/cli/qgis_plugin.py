@@ -87,7 +87,7 @@ settings = QgsMapSettings()
 from thalweg_tin import build
 for words in (build.DEFINITIONS, build.CROSSINGS, build.DUPLICATES, build.NODATA, build.METHODS):
     print('words', sorted(words))
-order = ['Pits', 'Conflicts', 'Breaklines', 'Network', 'Catchments', 'project']
+order = ['Pits', 'Inconsistencies', 'Conflicts', 'Breaklines', 'Network', 'Catchments', 'project']
 settings.setLayers([layers[name] for name in order])
 settings.setDestinationCrs(mesh.crs())
 settings.setExtent(mesh.extent())
@@ -98,7 +98,95 @@ job.waitForFinished()
 image = job.renderedImage()
 image.save('map.png')
 colors = {image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)}
-print('drawn', [color in colors for color in ('#1f6fd0', '#8a4b08', '#0040ff')], len(colors) > 200)
+print('drawn', [color in colors for color in ('#1f6fd0', '#8a4b08', '#0040ff', '#e02020')], len(colors) > 200)
+"""
+
+# CRSs that a layer has got in QGIS, or that QGIS made; formats that it does not read; programs that stop, or do not run.
+DETAILS = START + r"""
+import json
+from processing.core.ProcessingConfig import ProcessingConfig
+from qgis.core import (QgsCoordinateReferenceSystem as Crs, QgsCoordinateTransform, QgsMeshLayer, QgsProcessingContext,
+                       QgsProcessingFeedback, QgsProject, QgsRasterLayer)
+from thalweg_tin.program import SETTING, _Progress
+registry = QgsApplication.processingRegistry()
+thalweg, lines = os.environ['THALWEG_PROGRAM'], sys.argv[1]
+class Feedback(QgsProcessingFeedback):
+    stop_at = None
+    def __init__(self):
+        super().__init__()
+        self.texts = []
+    def pushCommandInfo(self, text):
+        if self.stop_at and self.stop_at in text:
+            self.cancel()
+    def setProgressText(self, text):
+        self.texts.append(text)
+def run(name, parameters, stop_at=None):
+    context, feedback = QgsProcessingContext(), Feedback()
+    context.setProject(QgsProject.instance())
+    feedback.stop_at = stop_at
+    try:
+        registry.algorithmById(name).create().run(parameters, context, feedback, catchExceptions=False)
+        return sorted(os.path.basename(path) for path in context.layersToLoadOnCompletion())
+    except Exception as error:
+        return f'{type(error).__name__}: {error}'
+def with_crs(layer, crs):
+    layer.setCrs(Crs(crs) if crs else Crs())
+    return layer
+
+with open('degrees.asc', 'w') as dem:
+    dem.write('ncols 3\nnrows 3\nxllcorner 10\nyllcorner 45\ncellsize 0.001\n1 2 3\n4 5 7\n3 1 2\n')
+dem = with_crs(QgsRasterLayer('degrees.asc', 'dem'), 'EPSG:4326')
+run('thalweg:build', {'INPUT': dem, 'OUTPUT': 'degrees.ply', 'REPORT': 'degrees.json'})
+with open('degrees.json') as report:
+    print('raster in degrees', json.load(report)['tin']['area_m2'] > 30000)
+
+told = run('thalweg:export', {'INPUT': 'tin.ply', 'OUTPUT': 'told.2dm'})
+bare = with_crs(QgsMeshLayer('told.2dm', 'bare', 'mdal'), None)
+to_degrees = QgsCoordinateTransform(Crs('EPSG:32632'), Crs('EPSG:4326'), QgsProject.instance())
+box = to_degrees.transformBoundingBox(bare.extent())
+sides = f'{box.xMinimum()},{box.xMaximum()},{box.yMinimum()},{box.yMaximum()} [EPSG:4326]'
+def to_raster(mesh, output):
+    run('thalweg:tintoraster', {'INPUT': mesh, 'RESOLUTION': 10, 'EXTENT': sides, 'OUTPUT': output})
+    raster = QgsRasterLayer(output, 'raster')
+    return raster.crs().authid(), raster.extent().contains(bare.extent())
+print('told mesh', to_raster(bare, 'told.tif'))
+os.remove('told.prj')
+print('assigned mesh', to_raster(with_crs(bare, 'EPSG:32632'), 'assigned.tif'))
+ply = with_crs(QgsMeshLayer('tin.ply', 'ply', 'mdal'), 'EPSG:3035')
+print('other CRS', run('thalweg:contours', {'INPUT': ply, 'OUTPUT': 'other.gpkg'}))
+
+print('loaded', told, *(run('thalweg:optimize', {'INPUT': 'tin.ply', 'OUTPUT': f'loaded.{e}'}) for e in ('xml', 'NC')))
+
+own = Crs.fromProj('+proj=tmerc +lon_0=9.5 +x_0=500000 +ellps=GRS80 +units=m')
+own.saveAsUserCrs('own')
+build = {'INPUT': 'points.gpkg', 'Z_FIELD': 'z', 'OUTPUT': 'own.ply'}
+print('own CRS', own.authid(), run('thalweg:build', {**build, 'TARGET_CRS': own}),
+      QgsMeshLayer('own.ply', '', 'mdal').crs() == own)
+
+output = registry.algorithmById('thalweg:contours').parameterDefinition('OUTPUT')
+print('outputs', output.supportsNonFileBasedOutput(),
+      [output.isSupportedOutputValue(value, QgsProcessingContext())[0] for value in ('memory:', 'x.gpkg')])
+
+progress = _Progress(Feedback())
+for part in ('read 2DM     0', '...10', '... - done.\n', 'triangulate  ', '0', '.', 'WARNING: at most 0'):
+    progress.feed(part)
+    print('phases', progress.feedback.texts)
+
+def program(name, text):
+    with open(name, 'w') as file:
+        file.write('#!/bin/sh\n' + text)
+    os.chmod(name, 0o700)
+    ProcessingConfig.setSettingValue(SETTING, os.path.abspath(name))
+both = {**build, 'OUTPUT': 'both/tin.nc', 'LAYERS': 'both/tin.gpkg', 'REPORT': 'both/tin.json', 'PICTURE': 'both/tin.png'}
+os.mkdir('both')
+program('slow', f'[ $1 = convert ] && exec sleep 60\nexec "{thalweg}" "$@"\n')
+print('second run', run('thalweg:build', both, stop_at='convert'), os.listdir('both'))
+program('deaf', f'trap "" TERM\n"{thalweg}" "$@"\nexit 0\n')
+print('done before', run('thalweg:build', {**build, 'OUTPUT': 'both/deaf.nc'}, stop_at='build'), os.listdir('both'))
+os.chmod('deaf', 0o600)
+print('not executable', run('thalweg:build', build))
+os.remove('deaf')
+print('missing', run('thalweg:build', build))
 """
 
 # A model of two of the algorithms, as the designer saves it.
@@ -249,7 +337,7 @@ def main():
                     "stopped True" in text and "left []" in text, text)
         _, text = bench.run(PYTHON, "-c", PROJECT, str(lines))
         for line in ("build True", "drain True", "crs {'EPSG:32632'}", "triangles shown True", "kinds ['Valleys', 'Ridges']",
-                     "heights 400 521", "pits #0040ff True", "drawn [True, True, True] True"):
+                     "heights 400 521", "pits #0040ff True", "drawn [True, True, True, True] True"):
             bench.check(f"project: {line}", line in text, text)
         told = subprocess.run([binary, "build", "--help"], check=True, capture_output=True, text=True).stdout
         definitions = re.search(r"which constrained order: (.*)", told).group(1).split(", ")
@@ -257,6 +345,24 @@ def main():
                    for option in ("crossing", "duplicates", "nodata")]
         for words in (definitions, *choices):
             bench.check(f"choices: {', '.join(words)}", f"words {sorted(words)}" in text, text)
+        _, text = bench.run(PYTHON, "-c", DETAILS, str(lines))
+        for name, line in (
+                ("a raster's CRS in QGIS counts", "raster in degrees True"),
+                ("a mesh's .prj counts", "told mesh ('EPSG:32632', True)"),
+                ("a mesh's CRS in QGIS counts", "assigned mesh ('EPSG:32632', True)"),
+                ("another CRS than a PLY's is refused",
+                 "other CRS QgsProcessingException: The layer ply has the CRS EPSG:3035"),
+                ("only meshes that QGIS reads are loaded", "loaded ['told.2dm'] [] ['loaded.NC']"),
+                ("a user's CRS", "own CRS USER:100000 ['own.ply'] True"),
+                ("outputs are files", "outputs False [False, True]"),
+                ("a phase is told as it starts", "phases ['read 2DM']\nphases ['read 2DM']\nphases ['read 2DM']\n"
+                 "phases ['read 2DM']\nphases ['read 2DM', 'triangulate']\n"),
+                ("cancel of the second run leaves nothing",
+                 "second run QgsProcessingException: Stopped; no output was left. []"),
+                ("a run that was done is not stopped", "done before ['deaf.nc'] ['deaf.nc']"),
+                ("a program that cannot be executed", "deaf cannot be run: Permission denied. Install thalweg, or name it"),
+                ("a program that is missing", "deaf cannot be run: No such file or directory. Install thalweg, or name it")):
+            bench.check(name, line in text, text)
         _, text = bench.run(PYTHON, "-c", MODEL)
         bench.check("model saved", "saved True" in text, text)
         status, text = bench.run(QGIS_PROCESS, "run", f"{folder}/terrain.model3", f"--points={folder}/points.gpkg",

@@ -1,12 +1,14 @@
 """Build TIN."""
 
+import os
+
 from qgis.core import (QgsProcessing, QgsProcessingException, QgsProcessingParameterCrs,
                        QgsProcessingParameterDistance, QgsProcessingParameterEnum, QgsProcessingParameterField,
                        QgsProcessingParameterFileDestination, QgsProcessingParameterMapLayer,
                        QgsProcessingParameterMultipleLayers, QgsProcessingParameterNumber,
                        QgsProcessingParameterString, QgsRasterLayer)
 
-from .algorithm import MESHES, ThalwegAlgorithm
+from .algorithm import MESHES, ThalwegAlgorithm, crs_text
 from .program import run
 
 DEFINITIONS = ["sees-opp", "std", "pathcon", "sees-triang", "sees-vtx", "conf-edge", "sees-3vtx", "empty-quad"]
@@ -104,7 +106,7 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
                 arguments += [option, repr(self.parameterAsDouble(parameters, name, context))]
         crs = self.parameterAsCrs(parameters, "TARGET_CRS", context)
         if crs.isValid():
-            arguments += ["--t-crs", crs.authid() or crs.toWkt()]
+            arguments += ["--t-crs", crs_text(crs)]
         results = {"OUTPUT": output}
         for name, option in (("REPORT", "--report"), ("PICTURE", "--picture")):
             path = self.parameterAsFileOutput(parameters, name, context) if parameters.get(name) else ""
@@ -113,7 +115,13 @@ The report is JSON: counts, conflicts, each criterion with its value, its bound 
                 results[name] = path
         run(arguments, feedback)
         if layers:  # which alone hold the conflicts; the mesh is made from them
-            run(["convert", layers, output, "--overwrite", "--progress"], feedback)
+            try:
+                run(["convert", layers, output, "--overwrite", "--progress"], feedback)
+            except QgsProcessingException:
+                if feedback.isCanceled():  # no output is left
+                    for path in (layers, *(results[name] for name in ("REPORT", "PICTURE") if name in results)):
+                        os.remove(path)
+                raise
             results["LAYERS"] = layers
             self.load_tin_layers(layers, "LAYERS", context, with_conflicts=True)
         self.load_mesh(output, "TIN", "OUTPUT", context)

@@ -1,6 +1,6 @@
 """TIN to raster, contours, vector layers and other meshes."""
 
-from qgis.core import (QgsProcessing, QgsProcessingException, QgsProcessingParameterEnum, QgsProcessingParameterExtent,
+from qgis.core import (QgsProcessing, QgsProcessingParameterEnum, QgsProcessingParameterExtent,
                        QgsProcessingParameterFileDestination, QgsProcessingParameterMeshLayer,
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterDestination,
                        QgsProcessingParameterString, QgsProcessingParameterVectorDestination)
@@ -36,8 +36,7 @@ cell centres start at the lowest x and highest y of the TIN, so that a DEM comes
                      "--surface", SURFACES[self.parameterAsEnum(parameters, "SURFACE", context)],
                      "--resolution", repr(self.parameterAsDouble(parameters, "RESOLUTION", context))]
         if parameters.get("EXTENT"):
-            crs = self.parameterAsMeshLayer(parameters, "INPUT", context).crs()
-            box = self.parameterAsExtent(parameters, "EXTENT", context, crs)
+            box = self.parameterAsExtent(parameters, "EXTENT", context, self.mesh_crs(parameters, "INPUT", context))
             sides = (box.xMinimum(), box.yMinimum(), box.xMaximum(), box.yMaximum())
             arguments.append("--extent=" + ",".join(map(repr, sides)))
         run(arguments, feedback)
@@ -109,10 +108,7 @@ class ExportTin(ThalwegAlgorithm):
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
-        source = self.mesh_path(parameters, "INPUT", context)
-        if source == output:
-            raise QgsProcessingException("The output is the input; give it another name.")
-        run(["convert", source, output, "--overwrite", "--progress"], feedback)
-        if output.lower().endswith((".ply", ".nc", ".2dm")):
-            self.load_mesh(output, "TIN", "OUTPUT", context)
+        run(["convert", self.mesh_path(parameters, "INPUT", context, output), output, "--overwrite", "--progress"],
+            feedback)
+        self.load_mesh(output, "TIN", "OUTPUT", context)
         return {"OUTPUT": output}

@@ -1,7 +1,7 @@
 """Drainage report."""
 
 from qgis.core import (QgsProcessing, QgsProcessingParameterFileDestination, QgsProcessingParameterMapLayer,
-                       QgsProcessingParameterMeshLayer, QgsProcessingParameterNumber)
+                       QgsProcessingParameterMeshLayer, QgsProcessingParameterNumber, QgsVectorLayer)
 
 from .algorithm import ThalwegAlgorithm
 from .program import run
@@ -15,8 +15,8 @@ class DrainageReport(ThalwegAlgorithm):
     GROUP = "Hydrology"
     KEYWORDS = ["tin", "hydrology", "pits", "depressions", "flow", "catchments", "watersheds", "streams"]
     HELP = """Follows water down the surface of a TIN: pits with their depth, area and volume, flow paths from points or
-from a lattice, the drainage network, catchments that tile the TIN, and where drawn lines do not hold. Heights are not
-changed. The layers are loaded; the report is JSON."""
+from a lattice, the drainage network, catchments that tile the TIN, and where drawn valleys rise or water crosses drawn
+ridges. Heights are not changed. The layers are loaded; the report is JSON."""
 
     def initAlgorithm(self, config=None):  # noqa: N802
         self.addParameter(QgsProcessingParameterMeshLayer("INPUT", "TIN"))
@@ -45,5 +45,7 @@ changed. The layers are loaded; the report is JSON."""
         results = {"OUTPUT": output}
         arguments += self.report_arguments(parameters, context, results)
         run(arguments, feedback)
-        self.load_layers(output, ("catchments", "network", "flow_paths", "pits"), "OUTPUT", context)
+        inconsistent = QgsVectorLayer(f"{output}|layername=inconsistencies").featureCount() > 0
+        names = ("catchments", "network", "flow_paths", *(["inconsistencies"] if inconsistent else []), "pits")
+        self.load_layers(output, names, "OUTPUT", context)
         return results

@@ -11,16 +11,24 @@ from processing.core.ProcessingConfig import ProcessingConfig
 from qgis.core import QgsProcessingException
 
 SETTING = "THALWEG_PROGRAM"
+_REMEDY = "Install thalweg, or name it under Settings, Options, Processing, Providers, Thalweg."
 
 
 def find_program():
-    """The path of thalweg: the setting, the variable THALWEG_PROGRAM, or what PATH finds."""
-    for path in (ProcessingConfig.getSetting(SETTING), os.environ.get("THALWEG_PROGRAM"), shutil.which("thalweg")):
-        if path and os.path.isfile(path):
-            return path
-    raise QgsProcessingException(
-        "The program thalweg was not found. Install it, or name it under Settings, Options, Processing, Providers, "
-        "Thalweg.")
+    """The path of thalweg: the setting, else the variable THALWEG_PROGRAM, else what PATH finds."""
+    path = ProcessingConfig.getSetting(SETTING) or os.environ.get("THALWEG_PROGRAM") or shutil.which("thalweg")
+    if not path:
+        raise QgsProcessingException(f"The program thalweg was not found. {_REMEDY}")
+    return path
+
+
+def _start(command):
+    quiet = {"creationflags": subprocess.CREATE_NO_WINDOW} if os.name == "nt" else {}
+    try:
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                **quiet)
+    except OSError as error:
+        raise QgsProcessingException(f"The program {command[0]} cannot be run: {error.strerror}. {_REMEDY}") from error
 
 
 def _read(stream, into, size):
@@ -33,11 +41,14 @@ def _read(stream, into, size):
 
 
 class _Progress:
-    """Reads lines like `triangulate  0...10...20` and tells feedback about them."""
+    """Reads lines like `triangulate  0...10...20` and tells feedback about them, a phase as soon as it starts."""
+
+    PHASE = re.compile(r"([\w -]+?) +0(?:\.\.\.|\.{0,2}$)")
 
     def __init__(self, feedback):
         self.feedback = feedback
         self.line = ""
+        self.in_phase = False
         self.errors = []
 
     def feed(self, text):
@@ -46,32 +57,32 @@ class _Progress:
                 self.end_line()
                 continue
             self.line += part
+            phase = None if self.in_phase else self.PHASE.match(self.line)
+            if phase:
+                self.in_phase = True
+                self.feedback.setProgressText(phase.group(1))
             numbers = re.findall(r"\d+(?=\.\.\.| - done)", self.line)
             if numbers:
                 self.feedback.setProgress(min(100, int(numbers[-1])))
 
     def end_line(self):
-        phase = re.match(r"(\D+?)\s+0\.\.\.", self.line)
         if self.line.startswith("ERROR "):
             self.errors.append(self.line[len("ERROR "):])
-        elif phase:
-            self.feedback.setProgressText(phase.group(1).strip())
-        elif self.line.strip():
+        elif self.line.strip() and not self.in_phase:
             self.feedback.pushInfo(self.line)
         self.line = ""
+        self.in_phase = False
 
 
 def run(arguments, feedback):
     """Runs `thalweg ARGUMENTS` and returns what it printed.
 
-    The program is asked to stop as soon as feedback is cancelled; it leaves no file then. A failure is a
-    QgsProcessingException with the program's own message.
+    The program is asked to stop as soon as feedback is cancelled; it leaves no file then, unless it was done before.
+    A failure is a QgsProcessingException with the program's own message.
     """
     command = [find_program(), *arguments]
     feedback.pushCommandInfo(" ".join(f"'{a}'" if " " in a or "|" in a else a for a in command))
-    quiet = {"creationflags": subprocess.CREATE_NO_WINDOW} if os.name == "nt" else {}
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               **quiet)
+    process = _start(command)
     out, err = queue.Queue(), queue.Queue()
     threads = [threading.Thread(target=_read, args=(process.stdout, out, 65536), daemon=True),
                threading.Thread(target=_read, args=(process.stderr, err, 4096), daemon=True)]
@@ -97,7 +108,7 @@ def run(arguments, feedback):
     process.stderr.close()
     status = process.wait()
     text = b"".join(iter(out.get, b"")).decode(errors="replace")
-    if stopped:
+    if status != 0 and stopped:
         raise QgsProcessingException("Stopped; no output was left.")
     if status != 0:
         raise QgsProcessingException("\n".join(progress.errors) or f"thalweg ended with status {status}")

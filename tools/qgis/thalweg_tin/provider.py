@@ -31,6 +31,10 @@ class ThalwegProvider(QgsProcessingProvider):
     def icon(self):
         return QIcon(os.path.join(os.path.dirname(__file__), "icon.svg"))
 
+    def supportsNonFileBasedOutput(self):  # noqa: N802
+        """The program writes files, no layers in memory or in a database."""
+        return False
+
     def load(self):
         ProcessingConfig.settingIcons["Thalweg"] = self.icon()
         ProcessingConfig.addSetting(Setting("Thalweg", SETTING, "Thalweg program", "", valuetype=Setting.FILE))

@@ -44,7 +44,7 @@ RENDERERS = {
     "flow_paths": lambda: _line("#5aa9e6", 0.3),
     "network": lambda: _line("#1f6fd0", 0.6),
     "catchments": lambda: _outline("#7a3fa0"),
-    "inconsistencies": lambda: _marker("cross_fill", "#e02020", 3),
+    "inconsistencies": lambda: _line("#e02020", 1),
 }
 
 
