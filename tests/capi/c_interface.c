@@ -39,6 +39,16 @@ static thalweg_job* lattice_job(void) {
   return job;
 }
 
+/* One by one they cost no more than all at once. */
+static void test_single_points(void) {
+  thalweg_job* job = thalweg_job_new();
+  for (int i = 0; i < 200000; ++i) {
+    const double xyz[] = {i % 450, i / 450, i % 7};
+    EXPECT(thalweg_job_add_points(job, xyz, 1) == THALWEG_OK);
+  }
+  thalweg_job_free(job);
+}
+
 static void test_versions(void) {
   EXPECT(strcmp(thalweg_version(), "") != 0);
   EXPECT(thalweg_api_version() == THALWEG_API_VERSION);
@@ -137,6 +147,8 @@ static void test_failures(void) {
          THALWEG_USAGE); /* where it goes is no option here */
   EXPECT(thalweg_job_set_option(job, "max-error", NULL) == THALWEG_USAGE);
   EXPECT(thalweg_job_add_points(job, NULL, 3) == THALWEG_USAGE);
+  const double one[] = {0, 0, 1};
+  EXPECT(thalweg_job_add_points(job, one, SIZE_MAX) == THALWEG_SIZE_LIMIT);
   EXPECT(thalweg_job_add_source(job, "x.gpkg|layername=") == THALWEG_USAGE);
   const double two[] = {0, 0, 1, 1, 1, 1};
   EXPECT(thalweg_job_add_line(job, 3, two, 2, 3) == THALWEG_USAGE);
@@ -319,6 +331,7 @@ static void test_threads(void) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   test_versions();
+  test_single_points();
   test_build_and_read_back(argv[1]);
   test_failures();
   test_optimize(argv[1]);

@@ -10,6 +10,7 @@
 #include <support/scene_tin.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -150,6 +151,9 @@ TEST(FixedFaces, AreTheSameOfUsefulTriangles) {
     const Tin ground = triangulate(std::move(points), std::move(heights), {}, progress);
     if (ground.triangle_count() == 0) continue;
     const ConstrainedOrder order(ground);
+    const std::size_t most = std::numeric_limits<std::size_t>::max();
+    ASSERT_TRUE(find_useful_triangles(order, {.max_order = most}, progress) ==
+                find_useful_triangles(order, {.max_order = most - 1}, progress));
     for (std::size_t k = 0; k <= 4; ++k) {
       const OrderTriangleOptions options{.max_order = k};
       const auto all = find_order_triangles(order, options, progress);

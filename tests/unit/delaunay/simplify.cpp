@@ -1,4 +1,5 @@
 // Greedy insertion against a plain one that triangulates anew each time, and the laws of the header.
+#include <thalweg/base/error.hpp>
 #include <thalweg/delaunay/simplify.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
 #include <thalweg/delaunay/trim.hpp>
@@ -359,6 +360,14 @@ TEST(Simplify, TrianglesStayTurnedRightAsWritten) {
   EXPECT_TRUE(validate(result.tin, kept_written).empty());
   EXPECT_LT(result.tin.vertex_count(), dense.vertex_count());
   EXPECT_LE(static_cast<double>(plain_largest_error(dense, result.tin)), 0.02 + 1e-12);
+}
+
+TEST(Simplify, RefusesAnErrorThatIsNone) {
+  const Tin dense = lattice(4, 4, hills);
+  Progress progress;
+  for (const double error : {-1.0, std::nan("")}) {
+    EXPECT_THROW(simplify(dense, {.max_error = error}, progress), Error);
+  }
 }
 
 }  // namespace

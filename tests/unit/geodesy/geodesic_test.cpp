@@ -1,6 +1,8 @@
 // Lengths and areas on the ellipsoid against known ones.
 #include <thalweg/base/error.hpp>
 #include <thalweg/geodesy/geodesic.hpp>
+#include <thalweg/geodesy/metric_frame.hpp>
+#include <thalweg/geodesy/position_text.hpp>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +21,23 @@ std::vector<VertexId> loop_of(std::initializer_list<std::size_t> ids) {
 }
 
 constexpr Ellipsoid kSphere{.equatorial_radius_m = 6371000, .flattening = 0};
+
+TEST(Zones, OfPlaces) {
+  EXPECT_EQ(utm_or_ups_epsg({9, 47}), 32632);
+  EXPECT_EQ(utm_or_ups_epsg({-70.7, -33.5}), 32719);
+  EXPECT_EQ(utm_or_ups_epsg({5, 60}), 32632);  // of Norway
+  EXPECT_EQ(utm_or_ups_epsg({0, 88}), 5041);
+  EXPECT_EQ(utm_or_ups_epsg({0, -88}), 5042);
+  EXPECT_THROW(utm_or_ups_epsg({0, 91}), Error);
+}
+
+TEST(Frame, OfNoEllipsoid) {
+  const std::vector<Point2> place{{10, 46}};
+  for (const Ellipsoid& none : {Ellipsoid{6e6, 1}, Ellipsoid{0, 0}, Ellipsoid{6e6, std::nan("")}}) {
+    EXPECT_THROW(MetricFrame::for_extent(place, none), Error);
+    EXPECT_THROW(MetricFrame::from_proj_string("+proj=tmerc +lon_0=9", none), Error);
+  }
+}
 
 TEST(GeodesicArea, AnOctantOfTheSphere) {
   const std::vector<Point2> lonlat{{0, 0}, {90, 0}, {30, 90}};

@@ -144,5 +144,9 @@ TEST(Criteria, AreFoundByName) {
   EXPECT_FALSE(find_criterion("beauty").has_value());
 }
 
+TEST(Optimize, RefusesAnObjectiveWithoutParts) {
+  EXPECT_THROW(run(basin(1, 5, 2, 5, 9), {.criteria = {Objective(std::vector<Objective::Part>())}}), Error);
+}
+
 }  // namespace
 }  // namespace thalweg::test

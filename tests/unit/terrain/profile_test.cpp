@@ -3,10 +3,12 @@
 
 #include <thalweg/delaunay/surface.hpp>
 #include <thalweg/delaunay/triangulate.hpp>
+#include <thalweg/mesh/rim.hpp>
 #include <thalweg/terrain/profile.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -94,6 +96,27 @@ TEST(Profile, BetweenPlacesTheSurfaceIsStraight) {
       EXPECT_NEAR(*z, p.z + t * (q.z - p.z), 1e-9);
     }
   }
+}
+
+TEST(Profile, AlongTheRimIsOnePart) {
+  test::Random random;
+  SCOPED_TRACE(random.trace());
+  std::vector<Point2> points;
+  std::vector<double> heights;
+  for (int i = 0; i < 300; ++i) {
+    points.push_back({random.real(500000, 501000), random.real(5.2e6, 5.201e6)});
+    heights.push_back(random.real(0, 5));
+  }
+  Progress progress;
+  const Tin tin = triangulate(points, heights, {}, progress);
+  std::vector<Point2> line;
+  for (const VertexId v : rim_loops(tin).at(0)) line.push_back(tin.point(v));
+  line.push_back(line.front());
+  const auto profile = trace(tin, line);
+  ASSERT_EQ(profile.size(), line.size());
+  for (const ProfilePoint& place : profile) EXPECT_EQ(place.part, 0U);
+  std::reverse(line.begin(), line.end());
+  EXPECT_EQ(trace(tin, line).back().part, 0U);
 }
 
 }  // namespace
