@@ -77,7 +77,7 @@ TinInfo inspect_tin(const std::string& path, Progress& progress, const VolumeCon
   TinInfo info;
   info.path = path;
   info.crs_name = loaded.crs.known ? loaded.crs.name : "";
-  info.extent = bounding_box(loaded.written.empty() ? loaded.tin.points() : loaded.written);
+  for (const Point2 p : loaded.written_points()) info.extent.add(loaded.plane.without_jump(p));
   info.tin = describe_tin(loaded.tin, loaded.plane, loaded.written);
   info.statistics = measure(loaded.tin, loaded.plane.scale());
   info.pits = describe_pits(find_pits(loaded.tin));
