@@ -318,6 +318,10 @@ bool Objective::needs_reference() const {
   });
 }
 
+Objective::Objective(std::vector<Part> weighted) : parts(std::move(weighted)), is_weighted(true) {
+  if (parts.empty()) throw Error(ErrorCode::Usage, "an objective has no part; give it a criterion");
+}
+
 bool Objective::is_of_pits() const {
   return traits_of(parts.front().criterion).coupling == Coupling::Plateau;
 }

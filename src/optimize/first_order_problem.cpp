@@ -17,10 +17,6 @@
 namespace thalweg {
 
 void check_options(const Tin& tin, const OptimizeOptions& options) {
-  for (const Objective& objective : options.criteria) {
-    if (objective.parts.empty())
-      throw Error(ErrorCode::Usage, "an objective has no part; give it a criterion");
-  }
   for (auto here = options.criteria.begin(); here != options.criteria.end(); ++here) {
     if (std::find(options.criteria.begin(), here, *here) == here) continue;
     throw Error(ErrorCode::Usage, "criterion " + here->name() + " is given twice; name each once");

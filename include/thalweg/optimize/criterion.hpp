@@ -75,7 +75,8 @@ struct Objective {
     bool operator==(const Part&) const = default;
   };
   Objective(Criterion criterion) : parts{{criterion}} {}  // NOLINT(google-explicit-constructor)
-  explicit Objective(std::vector<Part> weighted) : parts(std::move(weighted)), is_weighted(true) {}
+  /// Throws: Error{Usage} without a part.
+  explicit Objective(std::vector<Part> weighted);
 
   std::vector<Part> parts;
   bool is_weighted = false;  ///< false: one criterion, weight 1, in its own direction

@@ -110,7 +110,8 @@ TEST(Profile, AlongTheRimIsOnePart) {
   Progress progress;
   const Tin tin = triangulate(points, heights, {}, progress);
   std::vector<Point2> line;
-  for (const VertexId v : rim_loops(tin).at(0)) line.push_back(tin.point(v));
+  const auto loops = rim_loops(tin);
+  for (const VertexId v : loops.at(0)) line.push_back(tin.point(v));
   line.push_back(line.front());
   const auto profile = trace(tin, line);
   ASSERT_EQ(profile.size(), line.size());
