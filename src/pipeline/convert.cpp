@@ -5,6 +5,7 @@
 // 2. Mesh and layers: written as they are. Orders follow their triangles, which a Tin sorts.
 // 3. Raster: strips of rows; each cell centre goes to the plane and is sampled there.
 // 4. Contours: traced in the plane, written in the TIN's coordinates. Profiles likewise.
+#include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "pipeline/loaded_tin.hpp"
 #include "pipeline/profile.hpp"
@@ -120,6 +121,20 @@ RasterGrid make_grid(const RasterConfig& raster, const Source& source, std::vect
   return grid;
 }
 
+/// Refuses, before the work starts, a raster that memory cannot hold: its values as doubles, and what GDAL
+/// makes of them, which a format may have in memory three times (measured: GeoTIFF; formats of text take
+/// more).
+void require_memory(const RasterGrid& grid, RasterType type) {
+  const std::size_t size = type == RasterType::Byte ? 1 : type == RasterType::Float32 ? 4 : 8;
+  const std::size_t cells = grid.columns * grid.rows, needed = cells * (sizeof(double) + 3 * size);
+  const MemoryRoom room = memory_room();
+  if (needed <= room.bytes) return;
+  throw Error(ErrorCode::OutOfMemory,
+              fmt::format("{} x {} cells need about {} MiB of memory, and {} leaves {} MiB; choose a larger "
+                          "--resolution, or a part with --extent",
+                          grid.columns, grid.rows, needed >> 20U, room.limited_by, room.bytes >> 20U));
+}
+
 const char* band_name(SurfaceValue value) {
   switch (value) {
     case SurfaceValue::Elevation:
@@ -154,6 +169,8 @@ class Brim {
 
 void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& result) {
   const RasterGrid grid = make_grid(raster, job.source, result.notes);
+  const RasterType type = raster.value == SurfaceValue::Hillshade ? RasterType::Byte : raster.type;
+  require_memory(grid, type);
   const Plane& plane = job.source.loaded.plane;
   const Brim brim(job.source.loaded.written_points(), grid.cell);
   const SurfaceSampler sampler(job.source.loaded.tin, plane.scale());
@@ -184,7 +201,7 @@ void write_surface(const Job& job, const RasterConfig& raster, ConvertResult& re
   const RasterView view{
       .grid = grid,
       .values = values,
-      .type = raster.value == SurfaceValue::Hillshade ? RasterType::Byte : raster.type,
+      .type = type,
       .crs_wkt = job.source.loaded.crs.wkt,
       .description = band_name(raster.value),
       .metres_per_unit = raster.value == SurfaceValue::Elevation ? plane.vertical_metres_per_unit() : 0};
