@@ -1,5 +1,6 @@
 // Buffered writing over a plain descriptor: a short write is continued, anything else is an error with its
-// reason.
+// reason. A descriptor that is open already is duplicated: opened by its name, a file would be truncated
+// under those who write to it, and a socket cannot be.
 #include "io/file_writer.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -8,14 +9,36 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
 namespace thalweg {
 
+std::optional<int> descriptor_of(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int kMostLinks = 40;
+  std::error_code broken;
+  const fs::path open = "/proc/" + std::to_string(::getpid()) + "/fd";
+  fs::path name = fs::absolute(path, broken);
+  for (int i = 0; i < kMostLinks && !broken; ++i) {
+    if (fs::canonical(name.parent_path(), broken) == open) {
+      const std::string digits = name.filename().string();
+      int descriptor = -1;
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), descriptor);
+      if (error == std::errc() && end == digits.data() + digits.size() && descriptor >= 0) return descriptor;
+    }
+    const fs::path next = fs::read_symlink(name, broken);
+    name = name.parent_path() / next;
+  }
+  return std::nullopt;
+}
+
 FileWriter::FileWriter(const std::string& path, std::string target)
     : target_(std::move(target)), buffer_(new char[kSize]) {
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const std::optional<int> opened = descriptor_of(path);
+  file_ = opened ? ::fcntl(*opened, F_DUPFD_CLOEXEC, 0)
+                 : ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file_ < 0) fail(errno);
 }
 

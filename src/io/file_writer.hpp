@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,11 +15,15 @@
 
 namespace thalweg {
 
+/// The open descriptor of this process that a path or a link stands for (/dev/stdout, /proc/self/fd/3).
+std::optional<int> descriptor_of(const std::string& path);
+
 /// Writes bytes, text and numbers to a file through one buffer of 1 MiB.
 /// Throws (all): Error{WriteFailed} naming the output.
 class FileWriter {
  public:
-  /// Creates or truncates `path`; errors name `target`, the file that the user asked for.
+  /// Creates or truncates `path`, or goes on where an open descriptor stands; errors name `target`, the file
+  /// that the user asked for.
   FileWriter(const std::string& path, std::string target);
   ~FileWriter();
   FileWriter(const FileWriter&) = delete;

@@ -40,7 +40,15 @@ LocalOrigin choose_origin(std::span<const Point2> xy, std::span<const double> z)
 void write_origin(const std::string& target, const TinView& view, const LocalOrigin& origin, bool y_is_up,
                   PendingOutputs& pending, Overwrite mode) {
   const std::string path = origin_path(target);
-  if (origin.x == 0 && origin.y == 0 && origin.z == 0) return pending.remove_stale(path, mode);
+  const bool needed = origin.x != 0 || origin.y != 0 || origin.z != 0;
+  if (is_stream(target)) {
+    if (!needed) return;
+    throw Error(ErrorCode::Unsupported,
+                target +
+                    ": single precision takes an origin in a file beside, which a pipe or device does not "
+                    "have; give the name of a file, or choose another format (--of)");
+  }
+  if (!needed) return pending.remove_stale(path, mode);
   using Json = nlohmann::ordered_json;
   const char* const about = y_is_up ? "add the origin to the file's x, -z, y (east, north, height)"
                                     : "add the origin to the file's x, y, z (east, north, height)";

@@ -38,6 +38,16 @@ void copy_out(const std::string& from, const std::string& to, const std::string&
   file.close();
 }
 
+void refuse_files_beside(const std::string& folder, const std::string& path, const std::string& target) {
+  const CPLStringList names(VSIReadDir(folder.c_str()));
+  for (int i = 0; i < names.size(); ++i) {
+    const std::string name = names[i];
+    if (name == "." || name == ".." || folder + "/" + name == path || name.ends_with(".prj")) continue;
+    throw Error(ErrorCode::Unsupported, target + ": is a pipe or a device, and the format needs " + name +
+                                            " beside; give the name of a file, or choose another format");
+  }
+}
+
 /// The files that GDAL would take for a part of this one.
 std::vector<std::string> companions(const std::string& target) {
   std::vector<std::string> files;
@@ -72,6 +82,10 @@ MemoryFolder::~MemoryFolder() {
 void MemoryFolder::deliver(const std::string& written, PendingOutputs& pending, Overwrite mode) const {
   if (is_folder(path_)) {
     throw Error(ErrorCode::Unsupported, target_ + ": the format makes a folder; choose one of files alone");
+  }
+  if (is_stream(target_)) {
+    refuse_files_beside(folder_, path_, target_);
+    return copy_out(path_, written, target_);
   }
   copy_out(path_, written, target_);
   std::vector<std::string> stale = companions(target_);

@@ -10,6 +10,8 @@
 // 4. All that live are listed, so that a process which is told to end can remove their files while its other
 // threads are still at work. The lock of the list is held while names change and files are given their
 // targets, and is not given back once they were abandoned.
+// 5. An open descriptor stands as the name of a link in /proc/self/fd; what this leads to may have no name
+// (pipe:[...]), or be a file that others go on to write to, so it is neither resolved nor replaced.
 #include "io/dataset.hpp"
 #include "io/file_writer.hpp"
 
@@ -27,6 +29,7 @@
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <string>
 #include <system_error>
@@ -98,6 +101,11 @@ fs::path behind_links(const std::string& target) {
   throw Error(ErrorCode::WriteFailed, target + ": is a link that leads nowhere; remove it");
 }
 
+/// What the file or stream is called by, for those that are not resolved.
+std::string name_of_descriptor(int descriptor) {
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
 Error exists_already(const std::string& target) {
   return {ErrorCode::OutputExists,
           target + ": exists already; choose another name or overwrite it with --overwrite"};
@@ -156,6 +164,16 @@ void write_text(const std::string& path, const std::string& target, std::string_
   file.close();
 }
 
+bool is_stream(const std::string& target) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(target, ignored);
+  return fs::is_character_file(status) || fs::is_fifo(status) || descriptor_of(target).has_value();
+}
+
+bool is_standard_output(const std::string& target) {
+  return descriptor_of(target) == STDOUT_FILENO;
+}
+
 PendingOutputs::PendingOutputs(const std::vector<std::string>& sources) {
   for (const std::string& source : sources) {
     for (std::string& file : files_of_source(source)) sources_.push_back(std::move(file));
@@ -194,12 +212,18 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
     throw Error(ErrorCode::Usage,
                 "'-' is no file: only --report goes to stdout; give a path, or /dev/stdout");
   }
+  if (const std::optional<int> descriptor = descriptor_of(target)) {
+    return {name_of_descriptor(*descriptor), name_of_descriptor(*descriptor), mode};
+  }
   std::error_code ignored;
   const fs::file_status status = fs::status(target, ignored);
   if (fs::is_directory(status)) {
     throw Error(ErrorCode::Usage, target + ": is a folder; give the name of a file in it");
   }
-  if (fs::is_character_file(status) || fs::is_fifo(status)) return {target, target, mode};
+  if (is_stream(target)) return {target, target, mode};
+  if (fs::is_block_file(status) || fs::is_socket(status)) {
+    throw Error(ErrorCode::Usage, target + ": is a block device or a socket; give the name of a file");
+  }
   const fs::path path = behind_links(target);
   const fs::path folder = folder_of(path);
   if (!fs::is_directory(folder, ignored)) {
@@ -219,9 +243,13 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
 }
 
 void PendingOutputs::check_new(const Output& output, const std::vector<Output>& known) {
+  const bool shared = !output.is_file() && !descriptor_of(output.target);  // as /dev/null
   for (const Output& other : known) {
-    if (!output.is_file() || fs::weakly_canonical(other.target) != fs::weakly_canonical(output.target))
-      continue;
+    if (shared || other.is_file() != output.is_file()) continue;
+    const bool same = output.is_file()
+                          ? fs::weakly_canonical(other.target) == fs::weakly_canonical(output.target)
+                          : other.target == output.target;
+    if (!same) continue;
     throw Error(ErrorCode::Usage, output.target + ": two outputs have this name; give each its own");
   }
 }

@@ -59,6 +59,8 @@ struct TinFormat {
   FormatInfo info;
   enum class Crs : std::uint8_t { InFile, InSidecar } crs;
   enum class Numbers : std::uint8_t { Double, Single, SingleYUp } numbers;  ///< y up: as glTF has it
+  /// Some are written back and forth, or are several files, which a stream does not bear.
+  enum class Target : std::uint8_t { Stream, File } target;
   void (*write)(const TinWriteJob& job);
   /// True if a file whose first bytes are these is of this format.
   bool (*recognises)(std::string_view head, const std::string& path);

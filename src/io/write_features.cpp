@@ -150,9 +150,13 @@ void check_features_path(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".gpkg") return;
-  throw Error(ErrorCode::Usage,
-              path + ": several layers are written, which takes a GeoPackage: name it .gpkg");
+  if (extension != ".gpkg") {
+    throw Error(ErrorCode::Usage,
+                path + ": several layers are written, which takes a GeoPackage: name it .gpkg");
+  }
+  if (!is_stream(path)) return;
+  throw Error(ErrorCode::Unsupported,
+              path + ": is a pipe or a device, and a GeoPackage can be written to a file only");
 }
 
 void write_features(const std::string& path, std::span<const FeatureLayer> layers, const std::string& crs,

@@ -58,6 +58,13 @@ const TinFormat& choose_format(const std::string& path, const std::string& name)
                                     ", or name it with --of");
 }
 
+void check_target(const std::string& path, const TinFormat& format) {
+  if (format.target == TinFormat::Target::Stream || !is_stream(path)) return;
+  throw Error(ErrorCode::Unsupported, path + ": is a pipe or a device, and " + format.info.name +
+                                          " can be written to a file only; give the name of one, or choose "
+                                          "another format (--of)");
+}
+
 void check_sizes(const TinView& view) {
   const auto fits = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
   const std::size_t vertices = view.tin.vertex_count();
@@ -88,6 +95,7 @@ std::string prj_text(const std::string& definition) {
 
 void write_sidecar(const std::string& path, const std::string& target, const TinView& view,
                    PendingOutputs& pending, Overwrite mode) {
+  if (is_stream(target)) return;
   const std::string& definition = view.crs_wkt.empty() ? view.crs_authority : view.crs_wkt;
   const std::string text = definition.empty() ? std::string() : prj_text(definition);
   if (keeps_prj(path, text, target, mode)) return;
@@ -104,6 +112,7 @@ void write_sidecar(const std::string& path, const std::string& target, const Tin
 
 void check_write_options(const std::string& path, const WriteOptions& options) {
   const TinFormat& format = choose_format(path, options.format);
+  check_target(path, format);
   const CreationOptions creation(options.creation_options, format.info);
 }
 
@@ -111,6 +120,7 @@ void write_tin(const std::string& path, const TinView& view, const WriteOptions&
                PendingOutputs& pending, Overwrite mode, Progress& progress) {
   check_sizes(view);
   const TinFormat& format = choose_format(path, options.format);
+  check_target(path, format);
   const CreationOptions creation(options.creation_options, format.info);
   progress.start_phase("write " + format.info.name);
   const std::string written = pending.add(path, mode);

@@ -239,8 +239,8 @@ bool is_mesh_format(const ConvertConfig& config) {
   try {
     check_write_options(config.output, {config.format, {}});
     return true;
-  } catch (const Error&) {
-    return false;
+  } catch (const Error& error) {
+    return error.code() != ErrorCode::Usage;
   }
 }
 

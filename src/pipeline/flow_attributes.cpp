@@ -109,7 +109,7 @@ Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progre
 
 void check_mesh_path(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".nc" || extension == ".gpkg") return;
+  if (extension == ".nc" || extension == ".gpkg") return check_write_options(path, {});
   throw Error(ErrorCode::Usage,
               "--mesh writes .nc (UGRID) or .gpkg, which hold values of edges, not '" + path + "'");
 }

@@ -23,6 +23,9 @@ struct Common {
 /// Adds --quiet, --progress, --format and, where work is parallel, --threads.
 void add_common_options(CLI::App& command, Common& common);
 
+/// Adds --report FILE; `path` is "-" for standard output, by whatever name.
+void add_report_option(CLI::App& command, std::string& path);
+
 /// What --help shows before the exit statuses: commands that work as they stand, a line each.
 void add_examples(CLI::App& command, const std::string& lines);
 

@@ -4,6 +4,7 @@
 #include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
 #include <thalweg/pipeline/convert.hpp>
 
 #include <memory>
@@ -83,6 +84,7 @@ void run_convert(const CLI::App& command, ConvertArguments& a) {
   }
   if (raster) a.config.raster = a.raster;
   a.config.announce = [&a](const ConvertResult& result) {
+    if (is_standard_output(a.config.output)) return;
     if (a.common.format == Format::Json) {
       print(to_json(result));
     } else if (a.common.quiet == 0) {

@@ -56,7 +56,7 @@ void add_drain_command(CLI::App& app) {
       "or .gpkg");
   command->add_option("--swmm", a->config.swmm_path,
                       "network and subcatchments as an input file of EPA SWMM 5 (.inp)");
-  command->add_option("--report", a->config.report_path, "JSON report; - for stdout");
+  add_report_option(*command, a->config.report_path);
   command->add_flag("--overwrite", a->config.overwrite, "replace existing outputs");
   add_common_options(*command, a->common);
   add_examples(*command,

@@ -148,6 +148,11 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+void add_report_option(CLI::App& command, std::string& path) {
+  command.add_option("--report", path, "JSON report; - for stdout")
+      ->transform([](std::string name) { return is_standard_output(name) ? "-" : name; }, "");
+}
+
 void add_examples(CLI::App& command, const std::string& lines) {
   command.footer("Examples:\n" + lines + "\n" + command.get_footer());
 }

@@ -1,6 +1,9 @@
 // Where results go.
 #include "output_options.hpp"
 
+#include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
+
 namespace thalweg::cli {
 
 void add_output_options(CLI::App& command, OutputConfig& output) {
@@ -11,7 +14,7 @@ void add_output_options(CLI::App& command, OutputConfig& output) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_flag("--overwrite", output.overwrite, "replace existing outputs");
-  command.add_option("--report", output.report_path, "JSON report; - for stdout");
+  add_report_option(command, output.report_path);
   command.add_option("--picture", output.picture_path, "picture of the result: .png, .svg or .pdf");
   command.add_option("--dump-problem", output.problem_path,
                      "the labelling problem for another solver, toulbar2's .cfn");
@@ -21,11 +24,14 @@ void add_output_options(CLI::App& command, OutputConfig& output) {
 }
 
 std::function<void(const Report&)> report_printer(const Common& common, const OutputConfig& output) {
-  if (output.report_path == "-" || (common.quiet == 0 && common.format == Format::Json)) {
-    return [](const Report& report) { print(to_json(report)); };
+  const auto print_json = [](const Report& report) { print(to_json(report)); };
+  if (output.report_path == "-" && is_standard_output(output.path)) {
+    throw Error(ErrorCode::Usage, "TIN and report cannot both go to standard output; name a file for one");
   }
-  if (common.quiet == 0) return [](const Report& report) { print(to_text(report)); };
-  return {};
+  if (output.report_path == "-") return print_json;
+  if (common.quiet != 0 || is_standard_output(output.path)) return {};
+  if (common.format == Format::Json) return print_json;
+  return [](const Report& report) { print(to_text(report)); };
 }
 
 }  // namespace thalweg::cli

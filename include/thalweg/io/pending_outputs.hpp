@@ -12,12 +12,18 @@ namespace thalweg {
 /// Whether an output may replace a file that exists.
 enum class Overwrite : std::uint8_t { No, Yes };
 
+/// Whether a target is written to from begin to end as it is, and has no place for files beside it: a pipe, a
+/// character device, or an open descriptor of this process (/dev/stdout, /proc/self/fd/3, links to these).
+bool is_stream(const std::string& target);
+/// Whether a target is the standard output of this process.
+bool is_standard_output(const std::string& target);
+
 /// The files that one run will leave behind.
 ///
 /// Each is written under a hidden name in its target's folder; `commit` gives all of them their names.
 /// Whatever was not committed is removed by the destructor, so that an error or a cancel leaves nothing.
 /// Laws: (1) before `commit` no target is touched; (2) after the destructor no temporary file is left;
-/// (3) a committed file has been flushed to the device. Devices and pipes (/dev/stdout) are written directly.
+/// (3) a committed file has been flushed to the device. Streams are written directly, and never removed.
 class PendingOutputs {
  public:
   /// `sources`: files that the run reads. None of them, nor a file that belongs to one, is ever a target.
@@ -29,8 +35,8 @@ class PendingOutputs {
   /// Checks that `target` can be written and returns the path to write to: no file is there yet, the folder
   /// and the extension are those of the target. A target that is a symbolic link is followed. Throws:
   /// Error{NotFound} if the folder is missing, Error{OutputExists} if the target exists and `mode` is No,
-  /// Error{Usage} if it is a folder, a source, or was added before, Error{WriteFailed} if the folder cannot
-  /// be written.
+  /// Error{Usage} if it is a folder, a block device or socket, a source, or was added before,
+  /// Error{WriteFailed} if the folder cannot be written. A stream is written to by this path, too.
   std::string add(const std::string& target, Overwrite mode);
 
   /// Says at once what `add` would refuse after long work: its writer adds the target then. Throws: as `add`,
@@ -48,7 +54,7 @@ class PendingOutputs {
  private:
   struct Output {
     std::string target;
-    std::string written;  ///< the temporary path; the target itself for devices
+    std::string written;  ///< the temporary path; the target itself for streams
     Overwrite mode = Overwrite::No;
     [[nodiscard]] bool is_file() const { return written != target; }
   };
