@@ -129,8 +129,13 @@ bool means_same_crs(const std::string& a, const std::string& b) {
   }
 }
 
+bool is_same_unit(double a, double b) {
+  constexpr double kRelative = 1e-9;
+  return std::abs(a / b - 1) < kRelative;
+}
+
 std::optional<OGRSpatialReference> with_heights_in(const OGRSpatialReference& plane, double metres_per_unit) {
-  const auto is = [metres_per_unit](double unit) { return std::abs(metres_per_unit / unit - 1) < 1e-12; };
+  const auto is = [metres_per_unit](double unit) { return is_same_unit(metres_per_unit, unit); };
   const char* const name = is(1)               ? "metre"
                            : is(0.3048)        ? "foot"
                            : is(1200.0 / 3937) ? "US survey foot"

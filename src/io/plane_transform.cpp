@@ -50,7 +50,9 @@ PlaneTransform::PlaneTransform(Frame from, Frame to, std::string origin)
   const bool is_known = !from_.reference.IsEmpty() && !to_.reference.IsEmpty();
   const bool with_heights =
       is_known && has_vertical_part(from_.reference) && has_vertical_part(to_.reference);
-  if (!with_heights) height_factor_ = from_.vertical_metres_per_unit / to_.vertical_metres_per_unit;
+  if (!with_heights && !is_same_unit(from_.vertical_metres_per_unit, to_.vertical_metres_per_unit)) {
+    height_factor_ = from_.vertical_metres_per_unit / to_.vertical_metres_per_unit;
+  }
   note_heights();
   if (!is_known) return;
   const OGRSpatialReference source = with_heights ? from_.reference : horizontal_part(from_.reference);

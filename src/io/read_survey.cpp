@@ -199,7 +199,7 @@ class SurveyReading {
   void tell_vertical_unit(CrsInfo& crs) {
     const double unit = survey_.vertical_metres_per_unit;
     std::optional<OGRSpatialReference> compound;
-    const bool differs = std::abs(unit / crs.vertical_metres_per_unit - 1) > 1e-12;
+    const bool differs = !is_same_unit(unit, crs.vertical_metres_per_unit);
     if (crs.known && differs) compound = with_heights_in(parse_reference(crs.wkt), unit);
     if (compound) {
       crs = describe_reference(*compound, "the survey");

@@ -7,7 +7,6 @@
 
 #include <thalweg/io/crs.hpp>
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -36,16 +35,12 @@ std::string escaped(std::string_view text) {
 
 constexpr double kFoot = 0.3048, kSurveyFoot = 1200.0 / 3937;
 
-bool is_near(double a, double b) {
-  return std::abs(a - b) < 1e-9;
-}
-
 // LandXML knows metres and the two feet; what else there is stands in the CRS.
 std::string units(const CrsInfo& crs) {
-  const bool feet = !crs.geographic && is_near(crs.horizontal_metres_per_unit, kFoot);
-  const bool survey_feet = !crs.geographic && is_near(crs.horizontal_metres_per_unit, kSurveyFoot);
-  const bool feet_high =
-      is_near(crs.vertical_metres_per_unit, kFoot) || is_near(crs.vertical_metres_per_unit, kSurveyFoot);
+  const bool feet = !crs.geographic && is_same_unit(crs.horizontal_metres_per_unit, kFoot);
+  const bool survey_feet = !crs.geographic && is_same_unit(crs.horizontal_metres_per_unit, kSurveyFoot);
+  const bool feet_high = is_same_unit(crs.vertical_metres_per_unit, kFoot) ||
+                         is_same_unit(crs.vertical_metres_per_unit, kSurveyFoot);
   const std::string elevation = std::string(" elevationUnit=\"") + (feet_high ? "feet" : "meter") + "\"";
   if (feet || survey_feet) {
     return "<Imperial areaUnit=\"squareFoot\" linearUnit=\"" + std::string(feet ? "foot" : "USSurveyFoot") +

@@ -72,7 +72,7 @@ GDALDatasetUniquePtr make_dataset(const std::string& path, const RasterView& vie
   band.SetDescription(view.description.c_str());
   for (const auto& [metres, name] :
        {std::pair(1.0, "m"), std::pair(0.3048, "ft"), std::pair(1200.0 / 3937, "US survey foot")}) {
-    if (std::abs(view.metres_per_unit / metres - 1) < 1e-12) band.SetUnitType(name);
+    if (is_same_unit(view.metres_per_unit, metres)) band.SetUnitType(name);
   }
   std::vector<double> line(view.grid.columns);
   for (int row = 0; row < rows; ++row) {
@@ -117,7 +117,7 @@ bool tells_place(GDALDataset* dataset, const std::string& path, const RasterView
   if (view.metres_per_unit == 0) return true;
   const double unit = metres_of_unit(dataset->GetRasterBand(1)->GetUnitType())
                           .value_or(describe_reference(*reference, path).vertical_metres_per_unit);
-  return std::abs(unit / view.metres_per_unit - 1) < 1e-9;
+  return is_same_unit(unit, view.metres_per_unit);
 }
 
 int report_progress(double fraction, const char*, void* progress) {

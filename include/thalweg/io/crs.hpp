@@ -52,6 +52,10 @@ struct CrsScale {
 /// longitude and latitude.
 std::optional<CrsScale> scale_at(const CrsInfo& crs, Point2 place);
 
+/// Whether two units, in metres, are the same one: definitions tell them with ten digits and more, while the
+/// two feet differ in the sixth.
+bool is_same_unit(double a, double b);
+
 /// Whether two definitions, of perhaps different dialects, mean the same CRS; false if one is not understood.
 bool means_same_crs(const std::string& a, const std::string& b);
 

@@ -44,7 +44,7 @@ struct FeatureLayer {
   std::vector<Feature> features;
 };
 
-/// Throws Error{Usage} if `path` does not name a GeoPackage (.gpkg).
+/// Throws Error{Usage} if `path` does not name a GeoPackage (.gpkg), Error{Unsupported} if it is a stream.
 void check_features_path(const std::string& path);
 
 /// Writes the layers to a GeoPackage; polygons as multipolygons. `crs`: a definition, or empty. Equal input

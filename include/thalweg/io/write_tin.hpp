@@ -46,7 +46,8 @@ struct WriteOptions {
 };
 
 /// Throws what `write_tin` would throw for a format, extension or creation option that is not known: so that
-/// a long run can say so before it starts.
+/// a long run can say so before it starts. Throws: also Error{Unsupported} if the path is a stream
+/// (`is_stream`), and the format needs a file.
 void check_write_options(const std::string& path, const WriteOptions& options);
 
 /// Writes the TIN, and a sidecar NAME.prj where the format cannot hold the CRS.
