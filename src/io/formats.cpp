@@ -61,7 +61,12 @@ bool recognises_netcdf(std::string_view head, const std::string&) {
 }
 
 bool recognises_landxml(std::string_view head, const std::string&) {
-  return head.find("<LandXML") != std::string_view::npos;
+  for (std::size_t at = head.find('<'); at != std::string_view::npos; at = head.find('<', at + 1)) {
+    std::string_view name = head.substr(at + 1);
+    name = name.substr(0, name.find_first_of(" \t\r\n>"));
+    if (name == "LandXML" || name.ends_with(":LandXML")) return true;
+  }
+  return false;
 }
 
 bool recognises_off(std::string_view head, const std::string&) {

@@ -30,6 +30,7 @@ class MeshPoints : public SourceReader {
   void read(ReadContext& run, PlaneTransform& transform) override {
     if (!run.options.where.empty()) run.where.refusals.push_back(name() + " is a mesh and has no attributes");
     if (!run.options.z_field.empty()) run.z_field.refusals.push_back(name() + " is a mesh and has no fields");
+    for (const std::string& note : mesh_.notes) run.note(note);
     expect_points(run, static_cast<double>(mesh_.points.size()));
     PointCollector points(run, transform);
     for (std::size_t i = 0; i < mesh_.points.size(); ++i) {

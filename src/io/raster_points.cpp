@@ -7,6 +7,7 @@
 #include "io/raster_points.hpp"
 
 #include "io/gdal_session.hpp"
+#include "io/height_unit.hpp"
 #include "io/nodata_grid.hpp"
 #include "io/point_collector.hpp"
 
@@ -229,26 +230,6 @@ class RasterPoints : public SourceReader {
 };
 
 }  // namespace
-
-std::optional<double> metres_of_unit(std::string unit) {
-  std::transform(unit.begin(), unit.end(), unit.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  struct Unit {
-    std::string_view name;
-    double metres;
-  };
-  constexpr double kFoot = 0.3048;
-  constexpr double kSurveyFoot = 1200.0 / 3937.0;
-  for (const Unit& known :
-       {Unit{"m", 1}, Unit{"metre", 1}, Unit{"metres", 1}, Unit{"meter", 1}, Unit{"meters", 1},
-        Unit{"cm", 0.01}, Unit{"dm", 0.1}, Unit{"km", 1000}, Unit{"ft", kFoot}, Unit{"foot", kFoot},
-        Unit{"feet", kFoot}, Unit{"international foot", kFoot}, Unit{"us-ft", kSurveyFoot},
-        Unit{"ftus", kSurveyFoot}, Unit{"us survey foot", kSurveyFoot}, Unit{"us_survey_foot", kSurveyFoot},
-        Unit{"foot_us", kSurveyFoot}}) {
-    if (unit == known.name) return known.metres;
-  }
-  return std::nullopt;
-}
 
 std::unique_ptr<SourceReader> open_raster(const SourceSpec& spec, GDALDatasetUniquePtr dataset) {
   return std::make_unique<RasterPoints>(spec, std::move(dataset));

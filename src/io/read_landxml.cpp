@@ -2,19 +2,25 @@
 //
 // 1. Points have any ids, as words; positions are "northing easting elevation".
 // 2. Faces are triangles of ids. Those marked invisible (i="1") are no surface: they close the hull.
-// 3. Breaklines and boundaries of the source data name positions, not points. Consecutive positions that are
-//    both a point of the surface, to the last bit, and joined by an edge of it, are a constraint edge; else
-//    the program that made the surface did not keep the line, and the piece is left out.
+// 3. Breaklines and boundaries of the source data name positions, not points. From a position that is a point
+//    of the surface, to the last bit, edges along the line are constraint edges; else the program that made
+//    the surface did not keep the line, and the piece is left out, and counted.
+// 4. The unit of heights is part of the CRS. Positions are in the unit of the CRS, and no other.
 #include "io/edge_chains.hpp"
 #include "io/file_content.hpp"
 #include "io/gdal_session.hpp"
+#include "io/height_unit.hpp"
+#include "io/line_matcher.hpp"
 #include "io/tin_format.hpp"
+
+#include <thalweg/io/crs.hpp>
 
 #include <cpl_minixml.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -160,39 +166,33 @@ class LandXmlReader {
 
   void read_lines(CPLXMLNode* source) {
     if (source == nullptr) return;
-    for (std::size_t v = 0; v < tin_.points.size(); ++v) places_.emplace(key(v), VertexId{v});
-    for (const Triangle& t : tin_.triangles) {
-      for (std::size_t i = 0; i < 3; ++i) edges_.push_back(std::minmax(t[i], t[(i + 1) % 3]));
-    }
-    std::sort(edges_.begin(), edges_.end());
+    for (std::size_t v = 0; v < tin_.points.size(); ++v) places_.emplace(key(tin_.points[v]), VertexId{v});
+    LineMatcher matcher(tin_.points, tin_.triangles);
     for_each_child(source, "Breaklines", [&](CPLXMLNode* list) {
       for_each_child(list, "Breakline", [&](CPLXMLNode* line) {
-        read_line(line, parse_kind_words(attribute(line, "desc")).value_or(EdgeKind::Breakline));
+        read_line(line, parse_kind_words(attribute(line, "desc")).value_or(EdgeKind::Breakline), matcher);
       });
     });
     for_each_child(source, "Boundaries", [&](CPLXMLNode* list) {
       for_each_child(list, "Boundary", [&](CPLXMLNode* line) {
-        read_line(line, attribute(line, "bndType") == "void" ? EdgeKind::Hole : EdgeKind::Boundary);
+        const bool is_hole = attribute(line, "bndType") == "void";
+        read_line(line, is_hole ? EdgeKind::Hole : EdgeKind::Boundary, matcher);
       });
     });
-    for (const auto& [edge, kind] : constraints_) tin_.constraints.push_back({edge.first, edge.second, kind});
+    matcher.deliver(tin_, path_);
   }
 
-  void read_line(CPLXMLNode* line, EdgeKind kind) {
+  void read_line(CPLXMLNode* line, EdgeKind kind, LineMatcher& matcher) {
     for_each_child(line, "PntList3D", [&](CPLXMLNode* list) {
       const std::vector<double> values = numbers(list, "breakline", 0);
-      VertexId before;
+      LineMatcher::Piece piece;
       for (std::size_t i = 0; i + 2 < values.size(); i += 3) {
-        const auto place = places_.find({values[i + 1], values[i]});
-        const VertexId v = place == places_.end() ? VertexId{} : place->second;
-        if (before.valid() && v.valid() && before != v) {
-          const std::pair<VertexId, VertexId> edge = std::minmax(before, v);
-          if (std::binary_search(edges_.begin(), edges_.end(), edge)) {
-            EdgeKind& known = constraints_[edge];
-            known = known | kind;
-          }
-        }
-        before = v;
+        piece.from = piece.to;
+        piece.from_vertex = piece.to_vertex;
+        piece.to = {values[i + 1], values[i]};
+        const auto place = places_.find(key(piece.to));
+        piece.to_vertex = place == places_.end() ? VertexId{} : place->second;
+        if (i > 0) matcher.add(piece, kind);
       }
     });
   }
@@ -202,26 +202,14 @@ class LandXmlReader {
     const std::string code = crs == nullptr ? "" : attribute(crs, "epsgCode");
     const std::string wkt = crs == nullptr ? "" : attribute(crs, "ogcWktCode");
     tin_.crs = code.empty() ? wkt : "EPSG:" + code;
-    if (tin_.crs.empty()) read_units(CPLGetXMLNode(root, "Units"));
-  }
-
-  // Without a CRS: one that knows the unit alone.
-  void read_units(CPLXMLNode* units) {
+    CPLXMLNode* units = CPLGetXMLNode(root, "Units");
     if (units == nullptr) return;
     for (CPLXMLNode* system = units->psChild; system != nullptr; system = system->psNext) {
       const std::string name = system->eType == CXT_Element ? attribute(system, "linearUnit") : "";
       if (name.empty()) continue;
-      const auto unit = std::ranges::find(kUnits, name, &Unit::name);
+      const auto* const unit = std::ranges::find(kUnits, name, &Unit::name);
       if (unit == kUnits.end()) fail(ErrorCode::Unsupported, "has the unknown linearUnit '" + name + "'");
-      const std::string heights = attribute(system, "elevationUnit");
-      if (!heights.empty() && heights != unit->of_heights) {
-        fail(ErrorCode::Unsupported,
-             "has positions in the unit '" + name + "' and heights in '" + heights +
-                 "', but no CRS that tells it; export both in one unit, or with a CRS");
-      }
-      if (unit->metres == 1) return;
-      tin_.crs = "LOCAL_CS[\"unknown, in " + name + "\",UNIT[\"" + name + "\"," +
-                 fmt::format("{}", unit->metres) + "]]";
+      read_units(*unit, attribute(system, "elevationUnit"));
     }
   }
 
@@ -229,6 +217,49 @@ class LandXmlReader {
     std::string_view name, of_heights;
     double metres;
   };
+
+  void read_units(const Unit& unit, const std::string& heights) {
+    if (!tin_.crs.empty()) {
+      check_unit(unit);
+      if (!heights.empty()) take_height_unit(tin_, metres_of_heights(unit, heights), path_);
+      return;
+    }
+    if (!heights.empty() && heights != unit.of_heights) {
+      fail(ErrorCode::Unsupported, "has positions in the unit '" + std::string(unit.name) +
+                                       "' and heights in '" + heights +
+                                       "', but no CRS that tells it; export both in one unit, or with a CRS");
+    }
+    tin_.crs = local_crs(std::string(unit.name), unit.metres);
+  }
+
+  // Many programs write "foot" for both feet. Thalweg writes "meter" where the CRS has a unit that LandXML
+  // does not know.
+  void check_unit(const Unit& unit) const {
+    const CrsInfo crs = describe_crs(tin_.crs);
+    const double metres = crs.horizontal_metres_per_unit;
+    const auto* const known =
+        std::ranges::find_if(kUnits, [&](const Unit& other) { return is_same_unit(other.metres, metres); });
+    const bool both_feet = known != kUnits.end() && unit.of_heights == "feet" && known->of_heights == "feet";
+    const bool unknown = known == kUnits.end() && unit.metres == 1;
+    if (crs.geographic || is_same_unit(unit.metres, metres) || both_feet || unknown) return;
+    fail(
+        ErrorCode::Unsupported,
+        fmt::format("has the linearUnit '{}', but positions of its CRS {} are in {}; export both in one unit",
+                    unit.name, crs.name,
+                    known == kUnits.end() ? fmt::format("units of {:.12g} m", metres) : known->name));
+  }
+
+  [[nodiscard]] double metres_of_heights(const Unit& unit, const std::string& heights) const {
+    if (heights == unit.of_heights) {
+      // That the CRS counts in the other foot was let pass; then heights are in that one, too.
+      const double crs = describe_crs(tin_.crs).horizontal_metres_per_unit;
+      return heights == "feet" && std::abs(crs / unit.metres - 1) < 1e-5 ? crs : unit.metres;
+    }
+    const auto* const known = std::ranges::find(kUnits, heights, &Unit::of_heights);
+    if (known != kUnits.end()) return known->metres;
+    fail(ErrorCode::Unsupported, "has the unknown elevationUnit '" + heights + "'");
+  }
+
   static constexpr std::array<Unit, 8> kUnits = {{{"meter", "meter", 1},
                                                   {"millimeter", "millimeter", 0.001},
                                                   {"centimeter", "centimeter", 0.01},
@@ -238,9 +269,7 @@ class LandXmlReader {
                                                   {"inch", "inch", 0.0254},
                                                   {"mile", "miles", 1609.344}}};
 
-  [[nodiscard]] std::pair<double, double> key(std::size_t v) const {
-    return {tin_.points[v].x, tin_.points[v].y};
-  }
+  static std::pair<double, double> key(Point2 p) { return {p.x, p.y}; }
 
   static constexpr std::size_t kCheckStep = 4096;
   const std::string& path_;
@@ -248,8 +277,6 @@ class LandXmlReader {
   TinFile tin_;
   std::unordered_map<std::string, VertexId> ids_;
   std::map<std::pair<double, double>, VertexId> places_;
-  std::vector<std::pair<VertexId, VertexId>> edges_;
-  std::map<std::pair<VertexId, VertexId>, EdgeKind> constraints_;
 };
 
 }  // namespace

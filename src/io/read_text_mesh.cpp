@@ -3,9 +3,11 @@
 // Node ids of 2DM are any ascending positive numbers, elements may stand before the nodes: ids are turned
 // into indices at the end. OBJ counts vertices from 1, or backwards from the last one read (-1). Constraint
 // edges are the node strings or line elements, of the kind that their name is, as `write_tin` writes them.
-// Those with other names are breaklines where they run along edges; elsewhere they are drawings of their own.
+// Those with other names are breaklines where they run along edges; elsewhere they are drawings of their own,
+// and counted.
 #include "io/edge_chains.hpp"
 #include "io/file_content.hpp"
+#include "io/line_matcher.hpp"
 #include "io/tin_format.hpp"
 
 #include <algorithm>
@@ -49,23 +51,16 @@ class MeshScanner {
     }
   }
 
-  /// Of constraints without a kind, edges of triangles become breaklines, others go. Pre: ids are indices.
+  /// Constraints without a kind become breaklines as far as they run along edges. Pre: ids are indices.
   void settle_foreign_lines() {
-    using Edge = std::pair<VertexId, VertexId>;
-    const auto key = [](VertexId a, VertexId b) -> Edge { return std::minmax(a, b); };
-    std::vector<Edge> edges;
     const auto is_foreign = [](const ConstraintEdge& edge) { return edge.kind == EdgeKind::None; };
     if (std::ranges::none_of(tin_.constraints, is_foreign)) return;
-    for (const Triangle& t : tin_.triangles) {
-      for (std::size_t side = 0; side < 3; ++side) edges.emplace_back(key(t[side], t[(side + 1) % 3]));
+    LineMatcher matcher(tin_.points, tin_.triangles);
+    for (const ConstraintEdge& edge : tin_.constraints) {
+      if (is_foreign(edge)) matcher.add(edge.a, edge.b, EdgeKind::Breakline);
     }
-    std::ranges::sort(edges);
-    std::erase_if(tin_.constraints, [&](const ConstraintEdge& edge) {
-      return is_foreign(edge) && !std::ranges::binary_search(edges, key(edge.a, edge.b));
-    });
-    for (ConstraintEdge& edge : tin_.constraints) {
-      if (is_foreign(edge)) edge.kind = EdgeKind::Breakline;
-    }
+    std::erase_if(tin_.constraints, is_foreign);
+    matcher.deliver(tin_, file_);
   }
 
   TextScanner scanner_;

@@ -1,8 +1,10 @@
 // UGRID in NetCDF: the first two-dimensional mesh topology of the file.
 //
 // Heights are the one variable on the nodes that is called an altitude or bed level, else the one whose name
-// ends in _z, else the only one there is. Faces may be stored corners first. Constraint edges are read where
-// `write_tin` put them.
+// ends in _z, else the only one there is. Values are unpacked (scale_factor, add_offset), those that are fill
+// are none, depths (positive down) become heights, and their unit a part of the CRS. Faces may be stored
+// corners first. Constraint edges are read where `write_tin` put them.
+#include "io/height_unit.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_length.hpp"
 #include "io/tin_format.hpp"
@@ -33,6 +35,7 @@ class UgridReader {
     read_constraints();
     read_orders();
     read_crs();
+    read_units();
     return std::move(tin_);
   }
 
@@ -71,6 +74,24 @@ class UgridReader {
     if (nc_inq_attlen(file_.id(), variable, name, &length) != NC_NOERR || length != 1) return otherwise;
     return nc_get_att_int(file_.id(), variable, name, &value) == NC_NOERR ? value : otherwise;
   }
+  [[nodiscard]] std::optional<double> number_of(int variable, const char* name) const {
+    double value = 0;
+    std::size_t length = 0;
+    if (nc_inq_attlen(file_.id(), variable, name, &length) != NC_NOERR || length != 1) return std::nullopt;
+    if (nc_get_att_double(file_.id(), variable, name, &value) != NC_NOERR) return std::nullopt;
+    return value;
+  }
+  /// What stands where nothing was written, unless the variable says otherwise.
+  [[nodiscard]] std::optional<double> fill_of(int variable) const {
+    if (const auto told = number_of(variable, "_FillValue")) return told;
+    nc_type type = 0;
+    file_.check(nc_inq_vartype(file_.id(), variable, &type));
+    if (type == NC_SHORT) return NC_FILL_SHORT;
+    if (type == NC_INT) return NC_FILL_INT;
+    if (type == NC_FLOAT) return NC_FILL_FLOAT;
+    if (type == NC_DOUBLE) return NC_FILL_DOUBLE;
+    return std::nullopt;
+  }
   [[nodiscard]] std::vector<std::size_t> shape_of(int variable) const {
     int count = 0;
     file_.check(nc_inq_varndims(file_.id(), variable, &count));
@@ -87,7 +108,15 @@ class UgridReader {
       fail(ErrorCode::BadFormat, "the variable " + name_of(variable) + " has not one value a node");
     std::vector<double> values(shape.front());
     file_.check(nc_get_var_double(file_.id(), variable, values.data()));
+    const std::optional<double> fill = fill_of(variable), missing = number_of(variable, "missing_value");
+    const double scale = number_of(variable, "scale_factor").value_or(1);
+    const double offset = number_of(variable, "add_offset").value_or(0);
     for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i] == fill || values[i] == missing) {
+        fail(ErrorCode::MissingHeight, "node " + std::to_string(i) + " has no " + name_of(variable) +
+                                           ", but its fill value; give it one, or take the node out");
+      }
+      values[i] = values[i] * scale + offset;
       if (!std::isfinite(values[i]))
         fail(ErrorCode::BadCoordinate,
              name_of(variable) + " of node " + std::to_string(i) + " is not finite");
@@ -131,9 +160,23 @@ class UgridReader {
       fail(ErrorCode::BadFormat, "the mesh " + name_of(mesh) + " names no node_coordinates that exist");
     const std::vector<double> xs = doubles(*x_id, 0);
     const std::vector<double> ys = doubles(*y_id, xs.size());
-    tin_.heights = doubles(height_variable(name_of(mesh)), xs.size());
+    const int z_id = height_variable(name_of(mesh));
+    tin_.heights = doubles(z_id, xs.size());
+    if (is_depth(z_id)) {
+      for (double& height : tin_.heights) height = 0 - height;
+      tin_.notes.push_back(path_ + ": " + name_of(z_id) +
+                           " counts downwards; heights are its values with the other sign");
+    }
+    unit_ = text_of(*x_id, "units");
+    height_unit_ = text_of(z_id, "units");
     tin_.points.resize(xs.size());
     for (std::size_t i = 0; i < xs.size(); ++i) tin_.points[i] = {xs[i], ys[i]};
+  }
+
+  [[nodiscard]] bool is_depth(int variable) const {
+    const std::string positive = text_of(variable, "positive");
+    if (!positive.empty()) return positive == "down";
+    return text_of(variable, "standard_name").find("depth_below") != std::string::npos;
   }
 
   [[nodiscard]] std::vector<int> integers(int variable, std::size_t count) const {
@@ -150,13 +193,22 @@ class UgridReader {
                                    std::to_string(value) + ", which does not exist");
   }
 
+  [[nodiscard]] bool lists_corners_first(int mesh, int faces, const std::vector<std::size_t>& shape) const {
+    std::array<int, 2> dimensions{};
+    file_.check(nc_inq_vardimid(file_.id(), faces, dimensions.data()));
+    int of_faces = 0;
+    if (nc_inq_dimid(file_.id(), text_of(mesh, "face_dimension").c_str(), &of_faces) == NC_NOERR)
+      return dimensions[1] == of_faces && dimensions[0] != of_faces;
+    return shape[1] < 3 || (shape[0] <= 8 && shape[1] > 8);
+  }
+
   void read_faces(int mesh) {
     const std::optional<int> faces = find(text_of(mesh, "face_node_connectivity"));
     if (!faces) fail(ErrorCode::BadFormat, "the mesh " + name_of(mesh) + " has no face_node_connectivity");
     const std::vector<std::size_t> shape = shape_of(*faces);
     if (shape.size() != 2)
       fail(ErrorCode::BadFormat, "the faces have " + std::to_string(shape.size()) + " dimensions");
-    const bool corners_first = shape[0] <= 8 && shape[1] > 8;
+    const bool corners_first = lists_corners_first(mesh, *faces, shape);
     const std::size_t rows = corners_first ? shape[1] : shape[0], width = corners_first ? shape[0] : shape[1];
     if (width < 3) fail(ErrorCode::WrongGeometry, "the faces have fewer than three corners");
     const int start = integer_of(*faces, "start_index", 0);
@@ -211,10 +263,20 @@ class UgridReader {
     if (const int code = integer_of(*crs, "epsg", 0); code > 0) tin_.crs = "EPSG:" + std::to_string(code);
   }
 
+  void read_units() {
+    const std::optional<double> unit = metres_of_unit(unit_), height_unit = metres_of_unit(height_unit_);
+    if (tin_.crs.empty() && unit) tin_.crs = local_crs(unit_, *unit);
+    if (height_unit) return take_height_unit(tin_, *height_unit, path_);
+    if (height_unit_.empty() || height_unit_ == "1") return;
+    tin_.notes.push_back(path_ + ": the unit of its heights, '" + height_unit_ +
+                         "', is not known; they are taken to be in that of the CRS");
+  }
+
   const std::string& path_;
   Progress& progress_;
   NetcdfFile file_;
   TinFile tin_;
+  std::string unit_, height_unit_;  // as the file names them
 };
 
 }  // namespace

@@ -3,8 +3,8 @@
 // others.
 #include "io/gdal_formats.hpp"
 #include "io/gdal_session.hpp"
+#include "io/height_unit.hpp"
 #include "io/memory_folder.hpp"
-#include "io/raster_points.hpp"
 #include "io/spatial_reference.hpp"
 
 #include <thalweg/io/write_raster.hpp>

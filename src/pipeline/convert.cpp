@@ -289,6 +289,7 @@ ConvertResult convert_tin(const ConvertConfig& config, Progress& progress) {
   PendingOutputs outputs(sources);
   progress.start_phase("read");
   const Source source = load_source(config.input, progress);
+  result.notes = source.loaded.notes;
   result.vertices = source.loaded.tin.vertex_count();
   result.triangles = source.loaded.tin.triangle_count();
   const Job job{config, source, outputs, progress};

@@ -213,6 +213,7 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
 
   progress.start_phase("read");
   LoadedTin loaded = load_tin(config.input, progress);
+  report.notes = loaded.notes;
   check_tin(loaded.tin, config.input);
   const TriangleGrid grid(loaded.tin);
   const std::vector<VertexId> outlets = place_outlets(loaded, grid, config, report, progress);

@@ -1,4 +1,5 @@
 // What a TIN file is: measured, checked, drawn.
+#include "base/printable.hpp"
 #include "pipeline/digest.hpp"
 #include "pipeline/lengths.hpp"
 #include "pipeline/loaded_tin.hpp"
@@ -76,6 +77,7 @@ TinInfo inspect_tin(const std::string& path, Progress& progress, const VolumeCon
   progress.start_phase("measure");
   TinInfo info;
   info.path = path;
+  info.notes = loaded.notes;
   info.crs_name = loaded.crs.known ? loaded.crs.name : "";
   for (const Point2 p : loaded.written_points()) info.extent.add(loaded.plane.without_jump(p));
   info.tin = describe_tin(loaded.tin, loaded.plane, loaded.written);
@@ -131,7 +133,8 @@ std::string to_json(const TinInfo& info) {
        {{"interior", info.pits.interior}, {"boundary", info.pits.boundary}, {"lake", info.pits.lake}}},
       {"volumes", volumes},
       {"valid", info.violations.empty()},
-      {"violations", violations}};
+      {"violations", violations},
+      {"notes", info.notes}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -177,6 +180,7 @@ std::string to_text(const TinInfo& info) {
   for (std::size_t i = 0; i < std::min(kShown, info.violations.size()); ++i) {
     fmt::format_to(out, "  {} {}\n", info.violations[i].code, info.violations[i].what);
   }
+  for (const std::string& note : info.notes) fmt::format_to(out, "Note: {}\n", printable(note));
   return text;
 }
 

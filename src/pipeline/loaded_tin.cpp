@@ -23,7 +23,8 @@ LoadedTin load_tin(TinFile file, const std::string& path, Progress& progress) {
       throw Error(error.code(), path + ": " + error.what());
     }
   }();
-  LoadedTin loaded{std::move(tin), std::move(crs), std::move(plane), {}, std::move(file.vertex_source)};
+  LoadedTin loaded{std::move(tin),       std::move(crs), std::move(plane), {}, std::move(file.vertex_source),
+                   std::move(file.notes)};
   if (loaded.plane.projected()) loaded.written = std::move(file.points);
   return loaded;
 }

@@ -21,6 +21,7 @@ struct LoadedTin {
   Plane plane;
   std::vector<Point2> written;              ///< empty: the plane's own
   std::vector<std::uint8_t> vertex_source;  ///< as in TinView; empty: not known
+  std::vector<std::string> notes;           ///< what reading it took otherwise than it stands there
 
   [[nodiscard]] std::span<const Point2> written_points() const {
     return written.empty() ? tin.points() : std::span<const Point2>(written);

@@ -129,6 +129,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   progress.start_phase("read");
   TinFile file = without_unused_vertices(read_tin(config.input, progress), report);
   const CrsInfo crs = describe_crs(file.crs);
+  report.notes = file.notes;
   note_assumptions(crs, file.points, report);
   const Plane plane(crs, file.points);
   report.input.points_read = file.points.size() + report.tin.vertices_left_out;

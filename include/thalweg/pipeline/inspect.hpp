@@ -40,6 +40,7 @@ struct TinInfo {
   std::string digest;
   std::vector<VolumeInfo> volumes;
   std::vector<Violation> violations;  ///< empty: valid
+  std::vector<std::string> notes;     ///< what reading it took otherwise than it stands there
 };
 
 /// Reads and measures a TIN file. Throws: Error{NotFound, BadFormat, InvalidTin, ...}; Error{BadCrs} if the
