@@ -318,10 +318,10 @@ TEST(ReadTin, TextMeshesOfOthers) {
   TinFile file = read_file(folder.file("a.2dm"));
   EXPECT_EQ(file.points.size(), 3U);
   ASSERT_EQ(file.constraints.size(), 3U);
-  EXPECT_EQ(file.constraints[0].kind, EdgeKind::Breakline) << "what else it means is not known";
-  EXPECT_EQ(file.constraints[1].kind, EdgeKind::Breakline);
-  EXPECT_EQ(file.constraints[2].kind, EdgeKind::Valley);
-  EXPECT_EQ(file.constraints[2].b, VertexId{1U});
+  EXPECT_EQ(file.constraints[0].kind, EdgeKind::Valley);
+  EXPECT_EQ(file.constraints[0].b, VertexId{1U});
+  EXPECT_EQ(file.constraints[1].kind, EdgeKind::Breakline) << "what else it means is not known";
+  EXPECT_EQ(file.constraints[2].kind, EdgeKind::Breakline);
 
   write_text(
       folder.file("a.OBJ"),
@@ -331,8 +331,8 @@ TEST(ReadTin, TextMeshesOfOthers) {
   EXPECT_EQ(file.points.size(), 3U);
   EXPECT_EQ(file.triangles[0][2], VertexId{2U});
   ASSERT_EQ(file.constraints.size(), 3U);
-  EXPECT_EQ(file.constraints[0].kind, EdgeKind::Breakline);
   EXPECT_EQ(file.constraints[1].kind, EdgeKind::Ridge);
+  EXPECT_EQ(file.constraints[2].kind, EdgeKind::Breakline);
 }
 
 }  // namespace
