@@ -36,11 +36,11 @@ double distance(Point2 a, Point2 b) {
   return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-std::vector<VertexId> place_outlets(const LoadedTin& loaded, const TriangleGrid& grid,
+std::vector<VertexId> place_outlets(const LoadedTin& loaded, const std::optional<TriangleGrid>& grid,
                                     const DrainConfig& config, DrainReport& report, Progress& progress) {
   std::vector<VertexId> outlets;
   for (const Point2 given : read_places(config.outlets, loaded.crs, progress)) {
-    const VertexId nearest = outlet_at(given, loaded.tin, grid, loaded.plane);
+    const VertexId nearest = outlet_at(given, loaded.tin, *grid, loaded.plane);
     const Point2 p = loaded.plane.to_plane(given);
     outlets.push_back(nearest);
     report.outlets.push_back(
@@ -80,15 +80,15 @@ Seeds list_seeds(const LoadedTin& loaded, const DrainConfig& config, Progress& p
 }
 
 std::vector<SeededPath> follow_seeds(const LoadedTin& loaded, const SurfaceFlow& flow,
-                                     const TriangleGrid& grid, const DrainConfig& config, DrainReport& report,
-                                     Progress& progress) {
+                                     const std::optional<TriangleGrid>& grid, const DrainConfig& config,
+                                     DrainReport& report, Progress& progress) {
   const auto [places, given] = list_seeds(loaded, config, progress);
   std::vector<SeededPath> paths;
   progress.start_phase("follow paths");
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (i % 256 == 0) progress.advance(static_cast<double>(i) / static_cast<double>(places.size()));
     const auto& [written, p] = places[i];
-    if (const auto t = grid.find(p)) {
+    if (const auto t = grid->find(p)) {
       paths.push_back({written, flow.path_from(*t, p)});
     } else if (i < given) {  // a lattice over the box of a TIN leaves it at every bay
       ++report.seeds_outside;
@@ -215,7 +215,8 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   LoadedTin loaded = load_tin(config.input, progress);
   report.notes = loaded.notes;
   check_tin(loaded.tin, config.input);
-  const TriangleGrid grid(loaded.tin);
+  std::optional<TriangleGrid> grid;
+  if (!config.outlets.empty() || !config.seeds.empty() || config.seed_spacing_m) grid.emplace(loaded.tin);
   const std::vector<VertexId> outlets = place_outlets(loaded, grid, config, report, progress);
   const std::vector<HeightChange> changes = condition(loaded, outlets, config, report, progress);
   const SurfaceFlow flow(loaded.tin, outlets, progress);
