@@ -1,8 +1,10 @@
 // The optimisation of a TIN that exists.
 //
+// Vertices are numbered along a curve until the outputs are written.
 // The vertices and constraint edges are triangulated anew (constrained Delaunay); an edge of the outline that
 // is missing there is added as a boundary constraint and the triangulation repeated. The surface is what lies
 // inside of the outline: a flood from the inner side of every outline edge that does not cross the outline.
+#include "delaunay/spatial_order.hpp"
 #include "pipeline/condition_tin.hpp"
 #include "pipeline/loaded_tin.hpp"
 #include "pipeline/outlets.hpp"
@@ -18,6 +20,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,35 +28,42 @@ namespace thalweg {
 
 namespace {
 
-/// The TIN file without the vertices that are in no triangle, nor at a constraint edge.
-TinFile without_unused_vertices(TinFile file, Report& report) {
-  std::vector<VertexId> renamed(file.points.size());
+/// The TIN file without the vertices that are in no triangle, nor at a constraint edge; the others are along
+/// a curve, so that what is close in the plane is close in memory. For each its rank in the file is returned.
+std::vector<VertexId> order_vertices(TinFile& file, Report& report, const Progress& progress) {
+  std::vector<bool> used(file.points.size());
   for (const Triangle& t : file.triangles) {
-    for (const VertexId v : t) renamed[v.index()] = v;
+    for (const VertexId v : t) used[v.index()] = true;
   }
-  for (const ConstraintEdge& edge : file.constraints) {
-    for (const VertexId v : {edge.a, edge.b}) renamed[v.index()] = v;
+  for (const ConstraintEdge& edge : file.constraints) used[edge.a.index()] = used[edge.b.index()] = true;
+  std::vector<std::uint32_t> ids;  // in the file, by rank
+  std::vector<Point2> points;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    ids.push_back(static_cast<std::uint32_t>(v));
+    points.push_back(file.points[v]);
   }
-  std::size_t next = 0;
-  for (std::size_t v = 0; v < renamed.size(); ++v) {
-    if (!renamed[v].valid()) continue;
-    file.points[next] = file.points[v];
-    file.heights[next] = file.heights[v];
-    if (!file.vertex_source.empty()) file.vertex_source[next] = file.vertex_source[v];
-    renamed[v] = VertexId{next++};
-  }
-  report.tin.vertices_left_out = renamed.size() - next;
-  file.points.resize(next);
-  file.heights.resize(next);
-  if (!file.vertex_source.empty()) file.vertex_source.resize(next);
+  report.tin.vertices_left_out = used.size() - ids.size();
+  const std::vector<std::uint32_t> order = hilbert_order(points, progress);
+  const auto sorted = [&](const auto& values) {
+    std::remove_cvref_t<decltype(values)> moved;
+    moved.reserve(order.size());
+    for (const std::uint32_t rank : order) moved.push_back(values[ids[rank]]);
+    return moved;
+  };
+  file.points = sorted(file.points);
+  file.heights = sorted(file.heights);
+  if (!file.vertex_source.empty()) file.vertex_source = sorted(file.vertex_source);
+  std::vector<VertexId> now(used.size());
+  for (std::size_t v = 0; v < order.size(); ++v) now[ids[order[v]]] = VertexId{v};
   for (Triangle& t : file.triangles) {
-    for (VertexId& v : t) v = renamed[v.index()];
+    for (VertexId& v : t) v = now[v.index()];
   }
   for (ConstraintEdge& edge : file.constraints) {
-    edge.a = renamed[edge.a.index()];
-    edge.b = renamed[edge.b.index()];
+    edge.a = now[edge.a.index()];
+    edge.b = now[edge.b.index()];
   }
-  return file;
+  return {order.begin(), order.end()};
 }
 
 std::vector<std::pair<VertexId, VertexId>> outline_of(const Tin& tin) {
@@ -127,7 +137,8 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   RunOutputs outputs(config.output, sources_of(config));
 
   progress.start_phase("read");
-  TinFile file = without_unused_vertices(read_tin(config.input, progress), report);
+  TinFile file = read_tin(config.input, progress);
+  std::vector<VertexId> number = order_vertices(file, report, progress);
   const CrsInfo crs = describe_crs(file.crs);
   report.notes = file.notes;
   note_assumptions(crs, file.points, report);
@@ -141,6 +152,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   progress.start_phase("triangulate");
   Terrain terrain = triangulate_again(file, plane.to_plane(file.points, progress), config.input, progress);
   terrain.vertex_source = std::move(file.vertex_source);
+  terrain.number = std::move(number);
   if (plane.projected()) {
     terrain.written = file.points;
     terrain.continuous = plane.to_lonlat(file.points);
