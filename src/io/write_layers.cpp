@@ -5,6 +5,7 @@
 //    whole before it gets its name.
 // 2. Features and geometries are made once a layer and refilled.
 // 3. GDAL's close returns nothing: what it said while closing decides whether the file is whole.
+// 4. The spatial index is filled at once when all features are there (spatial_index.cpp).
 // The date of last change in the file is fixed, so that equal input gives equal bytes.
 // One-layer formats are made in memory and copied out: a shapefile is several files, and the drivers of
 // FlatGeobuf and GeoJSON do not notice a full disk. GeoJSON is rounded to about 15 digits by its driver.
@@ -15,6 +16,7 @@
 #include "io/edge_chains.hpp"
 #include "io/gdal_session.hpp"
 #include "io/memory_folder.hpp"
+#include "io/spatial_index.hpp"
 #include "io/spatial_reference.hpp"
 #include "io/tin_format.hpp"
 
@@ -64,6 +66,7 @@ struct LayerFormat {
   Transactions transactions;
   std::vector<std::string> layers;
   std::vector<std::string> layer_options;
+  bool indexed = false;
 };
 
 class LayerWriter {
@@ -105,12 +108,12 @@ class LayerWriter {
     const auto wanted = [&](const char* name) {
       return std::find(format_.layers.begin(), format_.layers.end(), name) != format_.layers.end();
     };
-    if (wanted("triangles")) write_triangles();
-    if (wanted("edges")) write_edges();
-    if (wanted("vertices")) write_vertices();
-    if (wanted("breaklines")) write_breaklines();
+    if (wanted("triangles")) write_triangles(), close_layer();
+    if (wanted("edges")) write_edges(), close_layer();
+    if (wanted("vertices")) write_vertices(), close_layer();
+    if (wanted("breaklines")) write_breaklines(), close_layer();
     // A TIN that was read does not know them, and none is not the same as unknown.
-    if (wanted("conflicts") && job_.view.conflicts) write_conflicts();
+    if (wanted("conflicts") && job_.view.conflicts) write_conflicts(), close_layer();
     if (dataset_->GetLayerCount() == 0) {
       throw Error(ErrorCode::Usage, job_.target +
                                         ": conflicts are known of what `thalweg build` makes, not of a "
@@ -148,6 +151,7 @@ class LayerWriter {
       if (layer_->CreateField(&definition) != OGRERR_NONE) fail();
     }
     feature_ = std::make_unique<OGRFeature>(layer_->GetLayerDefn());
+    if (format_.indexed) index_.emplace(*dataset_, name, job_.target);
     job_.progress.start_phase(std::string("write layer ") + name);
   }
 
@@ -157,6 +161,15 @@ class LayerWriter {
       job_.progress.advance(static_cast<double>(row) / static_cast<double>(count));
     feature_->SetFID(OGRNullFID);
     if (layer_->CreateFeature(feature_.get()) != OGRERR_NONE) fail();
+    if (!index_) return;
+    OGREnvelope box;
+    feature_->GetGeometryRef()->getEnvelope(&box);
+    index_->add({box.MinX, box.MinY, box.MaxX, box.MaxY});
+  }
+
+  void close_layer() {
+    if (index_) index_->finish(job_.progress);
+    index_.reset();
   }
 
   void set_attributes(int first_field, std::span<const TinAttribute> attributes, std::size_t row) {
@@ -295,6 +308,7 @@ class LayerWriter {
   std::optional<OGRSpatialReference> reference_;
   GDALDatasetUniquePtr dataset_;
   OGRLayer* layer_ = nullptr;
+  std::optional<SpatialIndex> index_;  // of the layer
   std::unique_ptr<OGRFeature> feature_;
 };
 
@@ -309,8 +323,10 @@ void write_one_layer(const TinWriteJob& job, const char* driver, std::vector<std
 }  // namespace
 
 void write_gpkg(const TinWriteJob& job) {
-  const char* const index = job.options.enabled("SPATIAL_INDEX") ? "SPATIAL_INDEX=YES" : "SPATIAL_INDEX=NO";
-  LayerWriter(job, job.path, {"GPKG", Transactions::One, job.options.list("LAYERS"), {index}}).write();
+  const bool indexed = job.options.enabled("SPATIAL_INDEX");
+  const char* const index = indexed ? "SPATIAL_INDEX=YES" : "SPATIAL_INDEX=NO";
+  LayerWriter(job, job.path, {"GPKG", Transactions::One, job.options.list("LAYERS"), {index}, indexed})
+      .write();
 }
 
 void write_flatgeobuf(const TinWriteJob& job) {
