@@ -117,6 +117,15 @@ std::vector<TinFormat> mesh_formats() {
        write_landxml,
        recognises_landxml,
        read_landxml},
+  };
+}
+
+std::vector<TinFormat> model_formats() {
+  using Crs = TinFormat::Crs;
+  using Numbers = TinFormat::Numbers;
+  using Target = TinFormat::Target;
+  const std::vector<std::string> edges = {"EDGES=YES|NO"};
+  return {
       {{"OBJ", "Wavefront object", {".obj"}, true, true, edges},
        Crs::InSidecar,
        Numbers::Double,
@@ -247,8 +256,9 @@ std::vector<std::string> CreationOptions::list(std::string_view key) const {
 std::span<const TinFormat> tin_format_table() {
   static const std::vector<TinFormat> table = [] {
     std::vector<TinFormat> all = mesh_formats();
-    const std::vector<TinFormat> layers = vector_formats();
-    all.insert(all.end(), layers.begin(), layers.end());
+    for (const auto& more : {model_formats(), vector_formats()}) {
+      all.insert(all.end(), more.begin(), more.end());
+    }
     return all;
   }();
   return table;

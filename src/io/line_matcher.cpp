@@ -35,12 +35,12 @@ LineMatcher::LineMatcher(std::span<const Point2> points, std::span<const Triangl
 }
 
 VertexId LineMatcher::next_on(Point2 begin, VertexId v, Point2 end) const {
-  const auto neighbours = std::ranges::equal_range(sides_, v, {}, &Side::first);
-  const auto next = std::ranges::find_if(neighbours, [&](const Side& side) {
-    const Point2 p = points_[side.second.index()];
-    return orientation(begin, end, p) == 0 && goes_on(points_[v.index()], p, end);
-  });
-  return next == neighbours.end() ? VertexId{} : next->second;
+  auto side = std::ranges::lower_bound(sides_, v, {}, &Side::first);
+  for (; side != sides_.end() && side->first == v; ++side) {
+    const Point2 p = points_[side->second.index()];
+    if (orientation(begin, end, p) == 0 && goes_on(points_[v.index()], p, end)) return side->second;
+  }
+  return {};
 }
 
 bool LineMatcher::follow(VertexId start, Point2 end, VertexId end_vertex, EdgeKind kind) {

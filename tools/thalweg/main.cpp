@@ -150,7 +150,7 @@ int run(int argc, char** argv) {
 
 void add_report_option(CLI::App& command, std::string& path) {
   command.add_option("--report", path, "JSON report; - for stdout")
-      ->transform([](std::string name) { return is_standard_output(name) ? "-" : name; }, "");
+      ->transform([](const std::string& name) { return is_standard_output(name) ? "-" : name; }, "");
 }
 
 void add_examples(CLI::App& command, const std::string& lines) {
