@@ -89,8 +89,9 @@ std::pair<double, double> range_without(std::vector<double>& values, double shar
   const auto strays = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   const auto low = values.begin() + strays, high = values.end() - 1 - strays;
   std::nth_element(values.begin(), low, values.end());
+  const double least = *low;
   std::nth_element(low, high, values.end());
-  return {*low, *high};
+  return {least, *high};
 }
 
 std::uint32_t to_pixel(Colour c) {
