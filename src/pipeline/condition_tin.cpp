@@ -102,7 +102,7 @@ ConditionedTin condition_tin(const Tin& tin, double metres_per_unit, std::span<c
   report = {.changed = result.changes.size(),
             .filled = result.filled,
             .breached = result.breached,
-            .left = result.left,
+            .left = config.changes_pits() ? std::optional(result.left) : std::nullopt,
             .pits_before = count_pits(tin, outlets, progress)};
   for (const HeightChange& change : result.changes) {
     const double size = std::abs(change.after - change.before) * metres_per_unit;

@@ -314,9 +314,11 @@ std::string to_text(const DrainReport& r) {
   if (r.conditioned) {
     row("heights changed", fmt::format("{}, by {:.2f} m together, {:.2f} m at most", r.conditioned->changed,
                                        r.conditioned->sum_m, r.conditioned->max_m));
-    row("pits filled, breached, left",
-        fmt::format("{}, {}, {} of {}", r.conditioned->filled, r.conditioned->breached, r.conditioned->left,
-                    r.conditioned->pits_before));
+    if (r.conditioned->left) {
+      row("pits filled, breached, left",
+          fmt::format("{}, {}, {} of {}", r.conditioned->filled, r.conditioned->breached,
+                      *r.conditioned->left, r.conditioned->pits_before));
+    }
   }
   row("pits inside", fmt::format("{}", r.interior_pits));
   if (r.lakes > 0) row("lakes", fmt::format("{}", r.lakes));

@@ -312,9 +312,9 @@ void add_water(std::string& text, const Report& r) {
   const ConditionReport& c = r.conditioned->figures;
   fmt::format_to(out, "Conditioned: {} heights changed, by {:.2f} m together, {:.2f} m at most", c.changed,
                  c.sum_m, c.max_m);
-  if (c.pits_before > 0) {
+  if (c.left && c.pits_before > 0) {
     fmt::format_to(out, "; of {} pits {} filled, {} breached, {} left", c.pits_before, c.filled, c.breached,
-                   c.left);
+                   *c.left);
   }
   text += '\n';
 }

@@ -27,9 +27,13 @@ Json consistency_json(const Consistency& c) {
 }
 
 Json condition_json(const ConditionReport& r) {
-  return {{"heights", r.changed},         {"sum_m", r.sum_m},   {"max_m", r.max_m},
-          {"pits_before", r.pits_before}, {"filled", r.filled}, {"breached", r.breached},
-          {"pits_left", r.left}};
+  return {{"heights", r.changed},
+          {"sum_m", r.sum_m},
+          {"max_m", r.max_m},
+          {"pits_before", r.pits_before},
+          {"filled", r.filled},
+          {"breached", r.breached},
+          {"pits_left", r.left ? nlohmann::ordered_json(*r.left) : nlohmann::ordered_json(nullptr)}};
 }
 
 }  // namespace thalweg

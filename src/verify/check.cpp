@@ -300,9 +300,9 @@ class Checker {
   void check_optima() {
     progress_.start_phase("optima");
     if (claims_.barred > 0) {
-      table_.add(
-          "bounds, optimality", Verdict::NotChecked,
-          fmt::format("{} diagonals are barred by source points, which are not at hand", claims_.barred));
+      table_.add("bounds, optimality", Verdict::NotChecked,
+                 fmt::format("{} diagonals are barred by source points that the simplified TIN left out",
+                             claims_.barred));
       return;
     }
     for (Finding& finding :

@@ -188,20 +188,26 @@ class BoundChecker {
   static std::int64_t steps_of(double value, const PlainCriterion& criterion) {
     return static_cast<std::int64_t>(std::floor(value / criterion.term_unit * kSteps + 0.5L));
   }
-  static std::int64_t slack_of(double value, const PlainCriterion& criterion) {
-    constexpr std::int64_t kSlack = 2;  // steps: another correct rounding
-    return kSlack + static_cast<std::int64_t>(std::abs(value / criterion.term_unit) * 1e-12 * kSteps);
+  /// Steps by which another correct rounding may differ: more beside slivers, as far as they let a bound say
+  /// something.
+  std::int64_t slack_of(double value, const PlainCriterion& criterion) {
+    constexpr std::int64_t kSlack = 2;
+    constexpr long double kMost = 1e-6L;
+    const auto [known, fresh] = tolerance_.try_emplace(criterion.parts.front().name);
+    if (fresh) known->second = value_of(problem_.delaunay, problem_.scale, criterion).tolerance;
+    const long double size = std::abs(static_cast<long double>(value));
+    const long double slack = std::max(size * 1e-12L, std::min(known->second, kMost * std::max(size, 1.0L)));
+    return kSlack + static_cast<std::int64_t>(slack / criterion.term_unit * kSteps);
   }
   /// Counts terms that are no better than the bound.
-  static Component no_better_than(const CriterionClaim& claim, const PlainCriterion& criterion,
-                                  std::size_t place) {
+  Component no_better_than(const CriterionClaim& claim, const PlainCriterion& criterion, std::size_t place) {
     const std::int64_t slack = slack_of(claim.bound, criterion);
     return {criterion, true,
             steps_of(claim.bound, criterion) + (criterion.combines == Combines::Largest ? -slack : slack),
             place};
   }
   /// Counts terms that are worse than the result, among the broken conditions.
-  static Component worse_than(const CriterionClaim& claim, const PlainCriterion& criterion) {
+  Component worse_than(const CriterionClaim& claim, const PlainCriterion& criterion) {
     const std::int64_t slack = slack_of(claim.bound, criterion) + 1;
     return {criterion, true,
             steps_of(claim.result, criterion) + (criterion.combines == Combines::Largest ? slack : -slack),
@@ -315,6 +321,7 @@ class BoundChecker {
     conditions_.push_back(worse_than(claim, criterion));
   }
 
+  std::map<std::string, long double> tolerance_;  // of the largest value of a criterion, by name
   const PlainProblem& problem_;
   std::span<const CriterionClaim> claims_;
   const Proof* proof_;

@@ -36,8 +36,8 @@ struct ConditionReport {
   double max_m = 0;
   std::size_t filled = 0;  ///< pits
   std::size_t breached = 0;
-  std::size_t left = 0;
-  std::size_t pits_before = 0;  ///< interior ones without an outlet
+  std::optional<std::size_t> left;  ///< of pits that were to be filled or breached
+  std::size_t pits_before = 0;      ///< interior ones without an outlet, of the TIN whose heights change
 };
 
 /// Reads one or more of monotone-valleys, fill, breach, separated by commas. Throws: Error{Usage}.
