@@ -83,10 +83,11 @@ bool recognises_stl(std::string_view, const std::string& path) {
   return same_word(std::filesystem::path(path).extension().string(), ".stl");
 }
 
+using Crs = TinFormat::Crs;
+using Numbers = TinFormat::Numbers;
+using Target = TinFormat::Target;
+
 std::vector<TinFormat> mesh_formats() {
-  using Crs = TinFormat::Crs;
-  using Numbers = TinFormat::Numbers;
-  using Target = TinFormat::Target;
   const std::vector<std::string> edges = {"EDGES=YES|NO"};
   return {
       {{"PLY", "Polygon file format (binary)", {".ply"}, true, true, edges},
@@ -121,9 +122,6 @@ std::vector<TinFormat> mesh_formats() {
 }
 
 std::vector<TinFormat> model_formats() {
-  using Crs = TinFormat::Crs;
-  using Numbers = TinFormat::Numbers;
-  using Target = TinFormat::Target;
   const std::vector<std::string> edges = {"EDGES=YES|NO"};
   return {
       {{"OBJ", "Wavefront object", {".obj"}, true, true, edges},
@@ -165,9 +163,6 @@ std::vector<TinFormat> model_formats() {
 }
 
 std::vector<TinFormat> vector_formats() {
-  using Crs = TinFormat::Crs;
-  using Numbers = TinFormat::Numbers;
-  using Target = TinFormat::Target;
   const std::vector<std::string> one_layer = {"LAYER=triangles|edges|vertices|breaklines|conflicts"};
   return {
       {{"GPKG",

@@ -5,9 +5,9 @@
 // 2. Mesh and layers: written as they are. Orders follow their triangles, which a Tin sorts.
 // 3. Raster: strips of rows; each cell centre goes to the plane and is sampled there.
 // 4. Contours: traced in the plane, written in the TIN's coordinates. Profiles likewise.
-#include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "pipeline/loaded_tin.hpp"
+#include "pipeline/memory_estimate.hpp"
 #include "pipeline/profile.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -119,20 +119,6 @@ RasterGrid make_grid(const RasterConfig& raster, const Source& source, std::vect
         std::abs(east), east < 0 ? "beyond" : "before", std::abs(south), south < 0 ? "beyond" : "before"));
   }
   return grid;
-}
-
-/// Refuses, before the work starts, a raster that memory cannot hold: its values as doubles, and what GDAL
-/// makes of them, which a format may have in memory three times (measured: GeoTIFF; formats of text take
-/// more).
-void require_memory(const RasterGrid& grid, RasterType type) {
-  const std::size_t size = type == RasterType::Byte ? 1 : type == RasterType::Float32 ? 4 : 8;
-  const std::size_t cells = grid.columns * grid.rows, needed = cells * (sizeof(double) + 3 * size);
-  const MemoryRoom room = memory_room();
-  if (needed <= room.bytes) return;
-  throw Error(ErrorCode::OutOfMemory,
-              fmt::format("{} x {} cells need about {} MiB of memory, and {} leaves {} MiB; choose a larger "
-                          "--resolution, or a part with --extent",
-                          grid.columns, grid.rows, needed >> 20U, room.limited_by, room.bytes >> 20U));
 }
 
 const char* band_name(SurfaceValue value) {

@@ -3,7 +3,7 @@
 // The figures are measured: peak memory of whole runs of 10^4 to 4 x 10^6 points to PLY is 53 MiB and up to
 // 203 bytes a random point, 210 a lattice point at order 1 and below; at orders 2 and 3 it is 1 051 and 1 220
 // bytes a random point. Longitudes and latitudes take up to 314, a simplification that keeps most points 392,
-// both 535.
+// both 535. Rasters of 10^8 cells take 20 bytes a cell as GeoTIFF in single precision, 32 in double.
 #include "pipeline/memory_estimate.hpp"
 
 #include "base/memory.hpp"
@@ -55,6 +55,18 @@ void MemoryEstimate::require(std::size_t vertices) const {
       fmt::format("{} points and line vertices need about {} of memory, and {} leaves {}; read a part "
                   "(--bbox) or thin them out",
                   vertices, in_mebibytes(needed), limited_by_, in_mebibytes(room_)));
+}
+
+void require_memory(const RasterGrid& grid, RasterType type) {
+  const std::size_t size = type == RasterType::Byte ? 1 : type == RasterType::Float32 ? 4 : 8;
+  const std::size_t needed = grid.columns * grid.rows * (sizeof(double) + 3 * size);
+  const MemoryRoom room = memory_room();
+  if (needed <= room.bytes) return;
+  throw Error(
+      ErrorCode::OutOfMemory,
+      fmt::format("{} x {} cells need about {} of memory, and {} leaves {}; choose a larger "
+                  "--resolution, or a part with --extent",
+                  grid.columns, grid.rows, in_mebibytes(needed), room.limited_by, in_mebibytes(room.bytes)));
 }
 
 }  // namespace thalweg

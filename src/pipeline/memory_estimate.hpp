@@ -2,6 +2,7 @@
 
 /// Refuses, before the work starts, what the memory cannot hold.
 
+#include <thalweg/io/write_raster.hpp>
 #include <thalweg/pipeline/build.hpp>
 
 #include <cstddef>
@@ -25,5 +26,9 @@ class MemoryEstimate {
   std::string limited_by_;
   std::size_t bytes_a_vertex_ = 0;
 };
+
+/// Throws: Error{OutOfMemory} if the machine cannot hold the values of a raster, as doubles, and what GDAL
+/// makes of them, which a format may have in memory three times (GeoTIFF; formats of text take more).
+void require_memory(const RasterGrid& grid, RasterType type);
 
 }  // namespace thalweg

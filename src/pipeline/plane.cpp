@@ -83,8 +83,7 @@ void note_crs(const CrsInfo& crs, std::span<const Point2> written, std::vector<s
   const bool same = std::abs(scale->east - scale->north) < kMuch;
   notes.push_back(
       fmt::format("in {} lengths are {} times those on the ground here, heights are not: slopes, angles and "
-                  "areas are not "
-                  "those of the ground. A build with --t-crs {} has them right",
+                  "areas are not those of the ground. A build with --t-crs {} has them right",
                   crs.name,
                   same ? fmt::format("{:.2f}", (scale->east + scale->north) / 2)
                        : fmt::format("{:.2f} (along x) and {:.2f} (along y)", scale->east, scale->north),

@@ -33,7 +33,7 @@ Json condition_json(const ConditionReport& r) {
           {"pits_before", r.pits_before},
           {"filled", r.filled},
           {"breached", r.breached},
-          {"pits_left", r.left ? nlohmann::ordered_json(*r.left) : nlohmann::ordered_json(nullptr)}};
+          {"pits_left", r.left ? Json(*r.left) : Json(nullptr)}};
 }
 
 }  // namespace thalweg
