@@ -24,6 +24,9 @@ class GdalSession {
   /// The errors reported since the last `reset`, in GDAL's words, on one line, as " (words)"; empty if there
   /// are none.
   [[nodiscard]] std::string reason() const;
+  /// Throws: Error{WriteFailed} with `what` could not be done, GDAL's words, and the `remedy`;
+  /// Error{OutOfMemory} if memory is what GDAL lacked.
+  [[noreturn]] void fail_to_write(const std::string& what, const char* remedy) const;
   /// Forgets errors; warnings stay.
   void reset();
   /// All warnings so far, each once; forgets them.

@@ -13,8 +13,6 @@
 
 #include "io/gdal_session.hpp"
 
-#include <thalweg/base/error.hpp>
-
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 #include <tbb/parallel_for.h>
@@ -147,17 +145,16 @@ void SpatialIndex::write_nodes_of(std::vector<std::pair<std::int64_t, std::int64
   }
 }
 
-void SpatialIndex::fail(const std::string& reason) const {
-  throw Error(ErrorCode::WriteFailed,
-              target_ + ": the spatial index could not be written" + reason +
-                  "; free some space or choose another place; no partial file is left");
+void SpatialIndex::fail(const GdalSession& session) const {
+  session.fail_to_write(target_ + ": the spatial index could not be written",
+                        "free some space or choose another place; no partial file is left");
 }
 
 void SpatialIndex::execute(const std::string& statement) {
   const GdalSession session;
   OGRLayer* const result = dataset_.ExecuteSQL(statement.c_str(), nullptr, nullptr);
   if (result != nullptr) dataset_.ReleaseResultSet(result);
-  if (session.failed()) fail(session.reason());
+  if (session.failed()) fail(session);
 }
 
 std::string SpatialIndex::ask(const std::string& query) {
@@ -166,7 +163,7 @@ std::string SpatialIndex::ask(const std::string& query) {
   const std::unique_ptr<OGRFeature> row(result != nullptr ? result->GetNextFeature() : nullptr);
   const std::string answer = row ? row->GetFieldAsString(0) : "";
   if (result != nullptr) dataset_.ReleaseResultSet(result);
-  if (answer.empty()) fail(session.reason());
+  if (answer.empty()) fail(session);
   return answer;
 }
 

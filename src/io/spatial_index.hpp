@@ -15,12 +15,14 @@
 
 namespace thalweg {
 
+class GdalSession;
+
 /// Takes the place of the trigger by which the index grows with each feature: that costs six times what all
 /// else does.
 class SpatialIndex {
  public:
   /// `target`: the file that the user asked for, for errors. Pre: the layer has its fields, an index
-  /// (SPATIAL_INDEX=YES), and no feature. Throws (all): Error{WriteFailed}.
+  /// (SPATIAL_INDEX=YES), and no feature. Throws (all): Error{WriteFailed, OutOfMemory}.
   SpatialIndex(GDALDataset& dataset, const std::string& layer, std::string target);
   /// The box of the next feature; their ids count from 1.
   void add(const Box2& box);
@@ -37,7 +39,7 @@ class SpatialIndex {
   std::vector<Entry> write_level(std::vector<Entry>& entries, std::int64_t first_id, unsigned depth,
                                  const Progress& progress);
   void write_nodes_of(std::vector<std::pair<std::int64_t, std::int64_t>> node_of, const char* table);
-  [[noreturn]] void fail(const std::string& reason) const;
+  [[noreturn]] void fail(const GdalSession& session) const;
   void execute(const std::string& statement);
   [[nodiscard]] std::string ask(const std::string& query);
 

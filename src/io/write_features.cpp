@@ -131,9 +131,8 @@ class FeatureWriter {
   }
 
   [[noreturn]] void fail() {
-    throw Error(ErrorCode::WriteFailed,
-                target_ + ": could not be written whole" + session_.reason() +
-                    "; free some space or choose another place; no partial file is left");
+    session_.fail_to_write(target_ + ": could not be written whole",
+                           "free some space or choose another place; no partial file is left");
   }
 
   std::string target_;

@@ -127,9 +127,8 @@ class LayerWriter {
 
  private:
   [[noreturn]] void fail() {
-    throw Error(ErrorCode::WriteFailed,
-                job_.target + ": could not be written whole" + session_.reason() +
-                    "; free some space or choose another place; no partial file is left");
+    session_.fail_to_write(job_.target + ": could not be written whole",
+                           "free some space or choose another place; no partial file is left");
   }
 
   /// Fields for attributes follow the others.

@@ -22,8 +22,7 @@ namespace {
 constexpr std::size_t kProgressStep = 1U << 10U;
 
 [[noreturn]] void fail(const std::string& path, const GdalSession& session) {
-  throw Error(ErrorCode::WriteFailed,
-              path + ": could not be written as lines" + session.reason() + "; choose another format");
+  session.fail_to_write(path + ": could not be written as lines", "choose another format");
 }
 
 /// Whether the layer has an attribute for the heights.

@@ -36,8 +36,8 @@ GDALDataType gdal_type(RasterType type) {
 }
 
 [[noreturn]] void fail(const std::string& path, const GdalSession& session) {
-  throw Error(ErrorCode::WriteFailed, path + ": could not be written as a raster" + session.reason() +
-                                          "; choose another format or other creation options");
+  session.fail_to_write(path + ": could not be written as a raster",
+                        "choose another format or other creation options");
 }
 
 /// Marks the cells without data: no other cell has this value.
