@@ -1,121 +1,137 @@
-// Points on lines become vertices of them.
+// A tree of all segments; each point and each line vertex asks it for those that come near.
 //
-// 1. A tree of all segments; each point and each line vertex asks it for the segments whose boxes it is in,
-//    and an exact predicate says which ones it lies on.
-// 2. The hits of a segment, sorted along it (by x and y, which grow or fall monotonically along a segment)
-// and
-//    without repetition, are inserted into its line.
+// In the plane the curve that a line is in its source's coordinates lies beside the chord that stands for it.
+// A point between them is on one side of the line as written and on the other as triangulated, so a triangle
+// of the two would be turned over as written. A vertex at the point's foot on the curve brings the chord
+// there.
 #include "box_tree.hpp"
+#include "noding.hpp"
 
 #include <thalweg/delaunay/split_lines.hpp>
-#include <thalweg/delaunay/surface.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
 #include <base/parallel.hpp>
+#include <mesh/line_vertices.hpp>
+#include <mesh/straight_piece.hpp>
 
-#include <tuple>
+#include <cmath>
+#include <utility>
 
 namespace thalweg {
 
 namespace {
 
-constexpr std::size_t kBlock = 1 << 12;
-
-struct Hit {
-  std::uint32_t segment = 0;
-  Point2 xy;
-  auto operator<=>(const Hit&) const = default;
-};
-
-// The segments of a line are numbered from first_segment[line] on, one a vertex but the last.
-struct Segments {
-  std::vector<Segment> all;
-  std::vector<std::size_t> first_of_line;
-};
-
-Segments collect_segments(const Survey& survey) {
-  Segments segments;
-  for (const SurveyLine& line : survey.lines) {
-    segments.first_of_line.push_back(segments.all.size());
-    for (std::size_t i = 0; i + 1 < line.xy.size(); ++i) {
-      segments.all.push_back({line.xy[i], line.xy[i + 1]});
-    }
-  }
-  return segments;
+double squared_distance(Point2 p, Point2 q) {
+  return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
 }
 
-std::vector<Hit> find_hits(const Survey& survey, std::span<const Segment> segments,
-                           const Progress& progress) {
-  const BoxTree tree = segment_tree(segments, progress);
-  std::vector<Point2> candidates = survey.points.xy;
-  for (const SurveyLine& line : survey.lines) {
-    candidates.insert(candidates.end(), line.xy.begin(), line.xy.end());
-  }
-  std::vector<std::vector<Hit>> found((candidates.size() + kBlock - 1) / kBlock);
+// The lines' vertices to come: `consider(segment, along, i, found)` is asked of each candidate i that is
+// beside a segment, not at its ends, and within the margin of its box.
+template <class Consider>
+std::vector<LineVertex> find_vertices(std::span<const LineSegment> segments,
+                                      std::span<const Point2> candidates, double margin,
+                                      const Progress& progress, const Consider& consider) {
+  constexpr std::size_t kBlock = 1 << 12;
+  std::vector<Segment> ends;
+  ends.reserve(segments.size());
+  for (const LineSegment& segment : segments) ends.push_back({segment.low, segment.high});
+  const BoxTree tree = segment_tree(ends, progress);
+  std::vector<std::vector<LineVertex>> found((candidates.size() + kBlock - 1) / kBlock);
   for_each_block(candidates.size(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Point2 p = candidates[i];
-      tree.visit(box_around(p, 0), [&](std::uint32_t segment) {
-        const auto& [a, b] = segments[segment];
-        if (p != a && p != b && on_segment(a, b, p)) found[begin / kBlock].push_back({segment, p});
+      tree.visit(box_around(p, margin), [&](std::uint32_t s) {
+        if (p == segments[s].low || p == segments[s].high) return;
+        const double along = part_along(segments[s], p);
+        if (along > 0 && along < 1) consider(s, along, i, found[begin / kBlock]);
       });
     }
   });
-  std::vector<Hit> hits;
-  for (const auto& part : found) hits.insert(hits.end(), part.begin(), part.end());
-  std::sort(hits.begin(), hits.end());
-  hits.erase(std::unique(hits.begin(), hits.end()), hits.end());
-  return hits;
+  std::vector<LineVertex> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
-// Pre: `hits` are those of the line, in order of (segment, x, y).
-SurveyLine with_vertices(const SurveyLine& line, std::span<const Hit> hits, std::size_t first_segment) {
-  SurveyLine split = line;
-  split.xy.clear();
-  split.z.clear();
-  const bool hard = !line.z.empty();
-  const auto append = [&](Point2 p, double z) {
-    split.xy.push_back(p);
-    if (hard) split.z.push_back(z);
-  };
-  for (std::size_t i = 0; i < line.xy.size(); ++i) {
-    append(line.xy[i], hard ? line.z[i] : 0);
-    std::size_t count = 0;
-    while (count < hits.size() && hits[count].segment == first_segment + i) ++count;
-    const auto append_hit = [&](const Hit& hit) {
-      append(hit.xy,
-             hard ? interpolate_on_segment(line.xy[i], line.z[i], line.xy[i + 1], line.z[i + 1], hit.xy) : 0);
-    };
-    const std::span<const Hit> here = hits.first(count);
-    if (count > 0 && line.xy[i] < line.xy[i + 1]) {
-      for (const Hit& hit : here) append_hit(hit);
-    } else {
-      for (std::size_t k = count; k-- > 0;) append_hit(here[k]);
-    }
-    hits = hits.subspan(count);
+// A segment of the plane as its source has it.
+StraightPiece written_piece(const LineSegment& segment, std::span<const std::vector<Point2>> written,
+                            double x_period) {
+  const std::vector<Point2>& line = written[segment.line];
+  const Point2 low = line[segment.vertex + (segment.reversed ? 1U : 0U)];
+  const Point2 high = line[segment.vertex + (segment.reversed ? 0U : 1U)];
+  return {low, high, x_period};
+}
+
+// The side of p, in the turn in which the piece is.
+int written_side(const StraightPiece& piece, Point2 p, double x_period) {
+  if (x_period > 0) p.x -= x_period * std::round((p.x - piece.low().x) / x_period);
+  return orientation(piece.low(), piece.high(), p);
+}
+
+// The place on the curve that is beside p, by steps that each take off most of what is missing.
+LineVertex foot_of(const LineSegment& segment, const StraightPiece& piece, Point2 p,
+                   const std::function<Point2(Point2)>& to_plane) {
+  const double beside = part_along(segment, p);
+  double along = beside;
+  LineVertex foot;
+  for (int step = 0; step < 3; ++step) {
+    foot = {0, along, to_plane(piece.at(along)), piece.at(along)};
+    along += beside - part_along(segment, foot.xy);
   }
-  return split;
+  return foot;
 }
 
 }  // namespace
 
-std::size_t split_lines_at_points(Survey& survey, Progress& progress) {
+std::size_t split_lines_at_points(Survey& survey, double x_period, Progress& progress) {
   progress.start_phase("finding points on lines");
-  const Segments segments = collect_segments(survey);
-  const std::vector<Hit> hits = find_hits(survey, segments.all, progress);
-  auto from = hits.begin();
-  for (std::size_t l = 0; l < survey.lines.size() && from != hits.end(); ++l) {
-    const std::size_t end_segment =
-        l + 1 < survey.lines.size() ? segments.first_of_line[l + 1] : segments.all.size();
-    const auto to =
-        std::find_if(from, hits.end(), [&](const Hit& hit) { return hit.segment >= end_segment; });
-    if (to != from) {
-      survey.lines[l] = with_vertices(survey.lines[l], std::span(from, to), segments.first_of_line[l]);
-    }
-    from = to;
+  const std::vector<LineSegment> segments = line_segments(survey);
+  const std::vector<Point2> candidates = positions_of(survey);
+  const double pixel = snapping_pixel(candidates, 0);
+  const auto consider = [&](std::uint32_t s, double along, std::size_t i, std::vector<LineVertex>& found) {
+    const auto& [line, vertex, a, b, reversed] = segments[s];
+    if (x_period > 0 && b.x - a.x > x_period / 2) return;
+    const Point2 foot = {std::lerp(a.x, b.x, along), std::lerp(a.y, b.y, along)};
+    if (squared_distance(foot, candidates[i]) <= pixel * pixel)
+      found.push_back({s, along, candidates[i], {}});
+  };
+  std::vector<LineVertex> vertices = find_vertices(segments, candidates, pixel, progress, consider);
+  const std::size_t count = insert_line_vertices(survey, {}, segments, std::move(vertices));
+  progress.advance(1);
+  return count;
+}
+
+std::size_t split_lines_beside_points(Survey& survey, WrittenSurvey written,
+                                      const std::function<Point2(Point2)>& to_plane,
+                                      const DensifyOptions& options, Progress& progress) {
+  progress.start_phase("finding points beside lines");
+  constexpr int kRounds = 8;  // a foot can leave another point on the wrong side where a line bends both ways
+  std::size_t count = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::vector<LineSegment> segments = line_segments(survey);
+    const std::vector<Point2> candidates = positions_of(survey);
+    std::vector<Point2> sources(written.points.begin(), written.points.end());
+    for (const auto& line : written.lines) sources.insert(sources.end(), line.begin(), line.end());
+    const double pixel = snapping_pixel(candidates, 0), reach = options.limit + pixel;
+    const auto consider = [&](std::uint32_t s, double along, std::size_t i, std::vector<LineVertex>& found) {
+      const auto& [line, vertex, a, b, reversed] = segments[s];
+      const Point2 p = candidates[i], beside = {std::lerp(a.x, b.x, along), std::lerp(a.y, b.y, along)};
+      if (squared_distance(beside, p) > reach * reach) return;
+      const StraightPiece piece = written_piece(segments[s], written.lines, options.x_period);
+      LineVertex foot = foot_of(segments[s], piece, p, to_plane);
+      foot.segment = s;
+      if (!(foot.along > 0 && foot.along < 1)) return;
+      if (squared_distance(foot.xy, p) <= pixel * pixel) {
+        found.push_back({s, foot.along, p, sources[i]});
+      } else if (orientation(a, b, p) * written_side(piece, sources[i], options.x_period) < 0) {
+        found.push_back(foot);
+      }
+    };
+    std::vector<LineVertex> vertices = find_vertices(segments, candidates, reach, progress, consider);
+    if (vertices.empty()) break;
+    count += insert_line_vertices(survey, written.lines, segments, std::move(vertices));
   }
   progress.advance(1);
-  return hits.size();
+  return count;
 }
 
 }  // namespace thalweg

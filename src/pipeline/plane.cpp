@@ -90,10 +90,4 @@ void note_crs(const CrsInfo& crs, std::span<const Point2> written, std::vector<s
                   "EPSG:" + std::to_string(utm_or_ups_epsg(scale->lonlat_deg))));
 }
 
-std::vector<Point2> positions_of(const Survey& survey) {
-  std::vector<Point2> all(survey.points.xy);
-  for (const SurveyLine& line : survey.lines) all.insert(all.end(), line.xy.begin(), line.xy.end());
-  return all;
-}
-
 }  // namespace thalweg

@@ -57,7 +57,4 @@ class Plane {
 /// Notes that the CRS is unknown, or its lengths far from those on the ground, if so.
 void note_crs(const CrsInfo& crs, std::span<const Point2> written, std::vector<std::string>& notes);
 
-/// All positions of a survey, points first.
-std::vector<Point2> positions_of(const Survey& survey);
-
 }  // namespace thalweg

@@ -4,6 +4,8 @@
 #include <thalweg/delaunay/split_lines.hpp>
 #include <thalweg/mesh/densify.hpp>
 
+#include <mesh/line_vertices.hpp>
+
 #include <utility>
 #include <vector>
 
@@ -11,17 +13,28 @@ namespace thalweg {
 
 namespace {
 
-PlaneSurvey to_plane(Survey survey, const Plane& plane, const Progress& progress) {
+PlaneSurvey to_plane(Survey survey, const Plane& plane, Progress& progress) {
   PlaneSurvey result;
-  if (plane.projected()) {
-    result.written_points = survey.points.xy;
-    survey.points.xy = plane.to_plane(result.written_points, progress);
-    for (SurveyLine& line : survey.lines) {
-      result.written_lines.push_back(line.xy);
-      line.xy = plane.to_plane(line.xy, progress);
-    }
-  }
   result.survey = std::move(survey);
+  if (!plane.projected()) return result;
+  std::vector<SurveyLine>& lines = result.survey.lines;
+  std::vector<Point2>& points = result.survey.points.xy;
+  const DensifyOptions options = {.x_period = plane.x_period()};
+  const auto project = [&](Point2 p) { return plane.to_plane(p); };
+  std::size_t inserted = 0;
+  if (!lines.empty()) {
+    inserted += split_lines_at_points(result.survey, options.x_period, progress);
+    inserted += densify_lines(result.survey, project, options);
+  }
+  result.written_points = std::exchange(points, plane.to_plane(points, progress));
+  for (SurveyLine& line : lines) {
+    result.written_lines.push_back(std::exchange(line.xy, plane.to_plane(line.xy, progress)));
+  }
+  if (!lines.empty()) {
+    const WrittenSurvey written = {result.written_points, result.written_lines};
+    inserted += split_lines_beside_points(result.survey, written, project, options, progress);
+  }
+  result.vertices_inserted_on_lines = inserted;
   return result;
 }
 
@@ -30,15 +43,8 @@ PlaneSurvey to_plane(Survey survey, const Plane& plane, const Progress& progress
 SurveyInPlane read_into_plane(std::span<const SourceSpec> points, std::span<const LineSource> lines,
                               const ReadOptions& options, Progress& progress, const MemorySource& memory) {
   ReadResult read = read_survey(points, lines, options, progress, memory);
-  std::size_t inserted = 0;
-  if (read.crs.geographic) inserted += split_lines_at_points(read.survey, progress);
   Plane plane(read.crs, positions_of(read.survey));
-  if (plane.projected()) {
-    inserted += densify_lines(read.survey, [&](Point2 p) { return plane.to_plane(p); },
-                              {.x_period = plane.x_period()});
-  }
   PlaneSurvey survey = to_plane(std::move(read.survey), plane, progress);
-  survey.vertices_inserted_on_lines = inserted;
   return {std::move(read), std::move(plane), std::move(survey)};
 }
 

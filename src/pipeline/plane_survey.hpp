@@ -27,9 +27,9 @@ struct SurveyInPlane {
   PlaneSurvey survey;
 };
 
-/// Reads the sources and projects them. In a geographic survey points exactly on a line become its vertices,
-/// and pieces that bend are densified, before anything is projected. Throws: what reading and projecting
-/// throw.
+/// Reads the sources and projects them. In a geographic survey points on a line become its vertices and
+/// pieces that bend are densified before anything is projected; then lines get vertices where the plane has a
+/// point on their wrong side. Throws: what reading and projecting throw.
 SurveyInPlane read_into_plane(std::span<const SourceSpec> points, std::span<const LineSource> lines,
                               const ReadOptions& options, Progress& progress,
                               const MemorySource& memory = {});

@@ -1,18 +1,38 @@
 #pragma once
 
-/// Vertices for lines where points lie on them.
+/// Vertices for lines where points lie on them or hardly beside them.
 
 #include <thalweg/base/progress.hpp>
+#include <thalweg/mesh/densify.hpp>
 #include <thalweg/mesh/survey.hpp>
 
 #include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
 
 namespace thalweg {
 
-/// Makes each point, and each vertex of a line, that lies exactly on a segment of a line a vertex of that
-/// line; a hard line gives it the interpolated height. Coordinates are taken as they are: call it before a
-/// survey is projected, because straight lines bend. Returns how many vertices were added. Complexity: about
-/// (points + segments) log segments.
-std::size_t split_lines_at_points(Survey& survey, Progress& progress);
+/// Makes each point, and each vertex of a line, that lies within a snapping pixel (2^-44 of the power of two
+/// above the largest coordinate) of a segment of a line a vertex of that line; a hard line gives it the
+/// interpolated height. Coordinates are taken as they are: call it before a survey is projected, because
+/// straight lines bend. Segments that jump by more than half of `x_period` (as in DensifyOptions) are left
+/// alone. Returns how many vertices were added. Complexity: about (points + segments) log segments.
+std::size_t split_lines_at_points(Survey& survey, double x_period, Progress& progress);
+
+/// The coordinates of a projected survey in its source.
+struct WrittenSurvey {
+  std::span<const Point2> points;
+  std::span<std::vector<Point2>> lines;  ///< those that are added are added here too
+};
+
+/// Adds vertices to the lines of a projected survey until each point, and each vertex of a line, is on the
+/// same side of every line in the plane as in its source's coordinates, where lines are straight as well: the
+/// foot of a point that is not, or the point itself where it is within a snapping pixel of the line. A hard
+/// line gives them the interpolated height. Returns how many. `to_plane` as for `densify_lines`; pre: no
+/// segment bends by more than `options.limit`. Throws: what `to_plane` throws. Complexity: as above.
+std::size_t split_lines_beside_points(Survey& survey, WrittenSurvey written,
+                                      const std::function<Point2(Point2)>& to_plane,
+                                      const DensifyOptions& options, Progress& progress);
 
 }  // namespace thalweg

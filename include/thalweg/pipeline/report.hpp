@@ -36,7 +36,7 @@ struct ReportInput {
   std::size_t crossings = 0;
   std::size_t lakes = 0;                       ///< bodies of water; lakes that touch are one
   std::size_t points_in_lakes = 0;             ///< points whose height gave way to a lake's level
-  std::size_t vertices_inserted_on_lines = 0;  ///< points exactly on a line, and densified pieces
+  std::size_t vertices_inserted_on_lines = 0;  ///< points on a line or hardly beside it, densified pieces
   double snapping_pixel = 0;  ///< side of the snapping grid, units of the plane; 0 without lines
 };
 
