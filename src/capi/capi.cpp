@@ -2,6 +2,7 @@
 // and keeps the message for the thread.
 #include "base/printable.hpp"
 #include "pipeline/build_arguments.hpp"
+#include "pipeline/condition_options.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/pipeline/build.hpp>
@@ -156,11 +157,15 @@ thalweg::OptimizeConfig optimize_config_of(const thalweg_job& job, const char* p
   }
   thalweg::cli::LabellingArguments arguments;
   CLI::App command;
+  thalweg::cli::ConditionArguments condition;
   thalweg::cli::add_labelling_options(command, arguments);
+  thalweg::cli::add_condition_options(command, condition);
   command.add_option("--threads", threads)->check(CLI::Range(1, 1024));
   command.set_help_flag();
   parse(command, job);
-  return {.input = path, .labelling = thalweg::cli::parse_labelling(arguments)};
+  return {.input = path,
+          .labelling = thalweg::cli::parse_labelling(arguments),
+          .condition = thalweg::cli::parse_condition(command, condition, {"--outlets"})};
 }
 
 /// Runs `work`, which gives a BuiltTin, on so many threads (0: all).

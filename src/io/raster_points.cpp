@@ -63,6 +63,7 @@ class RasterPoints : public SourceReader {
                "', is not known; they are taken to be in that of the CRS (another: --a-crs with a compound "
                "CRS, as EPSG:2994+5703)");
     }
+    run.nodata.taken = true;
     has_mask_ = (band_->GetMaskFlags() & GMF_ALL_VALID) == 0;
     scale_ = band_->GetScale();
     offset_ = band_->GetOffset();

@@ -39,6 +39,7 @@ struct ReadContext {
   OptionUse kind_field;
   OptionUse las_filter;
   OptionUse coords;
+  OptionUse nodata;
   std::vector<std::shared_ptr<const NodataRegion::Grid>> grids;  ///< of all rasters
   bool has_outside = false;                                      ///< one of them has ground that is outside
   Box2 extent;  ///< with a box: of all points, in the plane of the survey

@@ -282,10 +282,11 @@ double steps_per_unit(const Objective& objective) {
          (objective.is_weighted ? 1 : traits_of(objective.parts.front().criterion).term_unit);
 }
 
-void refuse_term(double value) {
-  throw Error(ErrorCode::SizeLimit, "a term of a criterion is " + std::to_string(value) +
-                                        ", too large to be added exactly; split the area, or give the "
-                                        "criterion a small weight, such as 0.001*vertical-error");
+void refuse_term() {
+  throw Error(
+      ErrorCode::SizeLimit,
+      "a term of a criterion is too large to be added exactly; are heights and units right? Split the "
+      "area, or give a criterion that is a sum a small weight, such as 0.001*vertical-error");
 }
 
 std::span<const CriterionTraits> all_criteria() {

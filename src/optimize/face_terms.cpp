@@ -41,8 +41,8 @@ void refuse_sums(std::size_t level) {
   throw Error(
       ErrorCode::SizeLimit,
       "the values of criterion " + std::to_string(level + 1) +
-          " are too large to be added exactly; split the area, or scale it by a small weight, such as "
-          "0.001*edge-length");
+          " of --optimize are too large to be added exactly; are heights and units right? Split the area, or "
+          "give a criterion that is a sum a small weight, such as 0.001*edge-length");
 }
 
 TermLevel level_of(const Objective& objective, std::optional<std::int64_t> limit,

@@ -90,7 +90,7 @@ void find_normals(const Tin& tin, std::span<const Triangle> triangles, Scale sca
                   std::span<Vector3> normals);
 
 /// Throws: Error{SizeLimit}.
-[[noreturn]] void refuse_term(double value);
+[[noreturn]] void refuse_term();
 
 constexpr double kStepsPerUnit = 0x1p32;
 constexpr double kMostUnits = 0x1p30;
@@ -99,7 +99,7 @@ constexpr double kMostUnits = 0x1p30;
 /// many units, 2^30 at most.
 
 inline std::int64_t to_steps(double value, double most_units = kMostUnits) {
-  if (!(std::abs(value) <= most_units)) refuse_term(value);
+  if (!(std::abs(value) <= most_units)) refuse_term();
   const double steps = value * kStepsPerUnit + 0.5;
   const auto towards_zero = static_cast<std::int64_t>(steps);
   return towards_zero - (static_cast<double>(towards_zero) > steps ? 1 : 0);

@@ -436,7 +436,9 @@ class FaceRun {
   std::array<Settled, Criteria> settled_{};
 };
 
-void refuse_other_terms(const std::vector<Objective>& criteria) {
+}  // namespace
+
+void require_face_criteria(const std::vector<Objective>& criteria) {
   for (const Objective& objective : criteria) {
     for (const Objective::Part& part : objective.parts) {
       const Declaration& declaration = declaration_of(part.criterion);
@@ -447,8 +449,6 @@ void refuse_other_terms(const std::vector<Objective>& criteria) {
     }
   }
 }
-
-}  // namespace
 
 void take_bounds(std::span<const CriterionResult> of, std::span<const double> alone,
                  std::span<CriterionResult> lines) {
@@ -465,7 +465,7 @@ void take_bounds(std::span<const CriterionResult> of, std::span<const double> al
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                   const FaceOptimizeOptions& options, Progress& progress) {
   check_options(delaunay, options.common);
-  refuse_other_terms(options.common.criteria);
+  require_face_criteria(options.common.criteria);
   FaceOptimizeOptions completed = options;
   std::vector<Objective>& criteria = completed.common.criteria;
   const std::size_t reported = criteria.size();

@@ -11,6 +11,7 @@
 // 5. If asked for, leave out the vertices that few others stand for (reduce_terrain.cpp).
 // 6. Optimise and write (surface.cpp).
 #include "pipeline/condition_tin.hpp"
+#include "pipeline/higher_order.hpp"
 #include "pipeline/memory_estimate.hpp"
 #include "pipeline/outlets.hpp"
 #include "pipeline/plane_survey.hpp"
@@ -152,7 +153,9 @@ namespace {
 
 void check_changes(const BuildConfig& config, const OutputConfig& output) {
   check_condition(config.condition, config.labelling, output);
-  if (config.condition.steps.empty() || (!config.max_error_m && !config.max_points)) return;
+  const bool simplified = config.max_error_m || config.max_points;
+  check_choice_by_faces(config.labelling, output, simplified);
+  if (config.condition.steps.empty() || !simplified) return;
   throw Error(ErrorCode::Usage,
               "--condition changes heights, so that no error of a simplification could be told; simplify "
               "first, then condition what is left with thalweg optimize --condition");

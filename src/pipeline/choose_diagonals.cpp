@@ -167,11 +167,6 @@ void set_options(Labelled& labelled, const RunContext& run, Progress& progress) 
 Labelled choose_diagonals(Terrain& terrain, const RunContext& run, PhaseSeconds& seconds,
                           Progress& progress) {
   Labelled labelled;
-  if (run.labelling.by_faces() && !run.outputs.proof.empty()) {
-    throw Error(ErrorCode::Unsupported,
-                "--proof is written for orders 0 and 1 only, under definitions up to sees-opp, and with "
-                "--method exact");
-  }
   seconds.triangulate += run.watch.lap();
 
   progress.start_phase("orders");

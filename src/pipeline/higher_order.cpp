@@ -17,6 +17,23 @@
 
 namespace thalweg {
 
+void check_choice_by_faces(const LabellingConfig& labelling, const OutputConfig& output, bool simplified) {
+  if (!labelling.by_faces()) return;
+  const auto refuse = [&](bool asked, const std::string& what) {
+    if (!asked) return;
+    throw Error(
+        ErrorCode::Unsupported,
+        what + (labelling.order > 1 ? " is not available at orders above 1; take --order 1"
+                : labelling.heuristic
+                    ? " is not available with --method flip and hull; take --method exact"
+                    : " is not available under sees-3vtx and empty-quad; take --definition sees-opp"));
+  };
+  refuse(!output.problem_path.empty(), "--dump-problem");
+  refuse(!output.proof_path.empty(), "--proof");
+  refuse(simplified, "simplification");
+  require_face_criteria(labelling.criteria);
+}
+
 namespace {
 
 /// Vertices at order 1 under definitions whose triangles are found by trying all pairs of vertices: 250

@@ -14,6 +14,9 @@
 
 namespace thalweg {
 
+/// Throws: Error{Unsupported} for what cannot be had with a choice by faces, if that is what is asked for.
+void check_choice_by_faces(const LabellingConfig& labelling, const OutputConfig& output, bool simplified);
+
 struct SurfaceFaces {
   FixedFaces faces;
   /// Not all triangles of the order could be listed, so the faces are for the triangulations that have no

@@ -5,6 +5,8 @@
 #include <thalweg/optimize/criterion.hpp>
 #include <thalweg/order/definition.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -66,18 +68,8 @@ void add_labelling_options(CLI::App& command, LabellingArguments& arguments) {
 
 namespace {
 
-/// Orders are written as 16-bit numbers; faces become too large long before.
-constexpr unsigned kLargestOrder = 1000;
 /// The largest at which all triangulations of every face can be listed, on random points.
 constexpr unsigned kDefaultLargest = 3;
-
-unsigned parse_order(const std::string& option, const std::string& text) {
-  unsigned order = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), order);
-  if (error == std::errc() && rest == text.data() + text.size() && order <= kLargestOrder) return order;
-  throw Error(ErrorCode::Usage, option + " takes a whole number from 0 to " + std::to_string(kLargestOrder) +
-                                    ", not '" + text + "'");
-}
 
 std::vector<Objective> parse_criteria(const std::string& text) {
   std::vector<Objective> criteria;
@@ -115,6 +107,14 @@ void check_heuristic(const LabellingConfig& config, const std::string& method) {
 
 }  // namespace
 
+unsigned parse_order(const std::string& option, const std::string& text) {
+  unsigned order = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), order);
+  if (error == std::errc() && rest == text.data() + text.size() && order <= kLargestOrder) return order;
+  throw Error(ErrorCode::Usage,
+              fmt::format("{} takes a whole number from 0 to {}, not '{}'", option, kLargestOrder, text));
+}
+
 LabellingConfig parse_labelling(const LabellingArguments& arguments) {
   LabellingConfig config;
   config.least_orders = arguments.order == "auto";
@@ -140,6 +140,10 @@ LabellingConfig parse_labelling(const LabellingArguments& arguments) {
     if (config.criteria.empty()) {
       throw Error(ErrorCode::Usage,
                   "--effort limits the search for the best diagonals; --optimize none has none");
+    }
+    if (config.order == 0) {
+      throw Error(ErrorCode::Usage,
+                  "--effort limits the search for the best diagonals; --order 0 leaves none");
     }
     config.effort = arguments.effort;
   }

@@ -10,6 +10,9 @@
 
 namespace thalweg::cli {
 
+/// Orders are written as 16-bit numbers; faces become too large long before.
+constexpr unsigned kLargestOrder = 1000;
+
 /// Values as typed, before they are turned into a LabellingConfig.
 struct LabellingArguments {
   std::string order = "1";
@@ -24,7 +27,8 @@ struct LabellingArguments {
 /// The names that --definition takes, separated by commas.
 std::string definition_names();
 void add_labelling_options(CLI::App& command, LabellingArguments& arguments);
-/// Throws: Error{Usage} that names the option and what it takes.
+/// Throws (both): Error{Usage} that names the option and what it takes.
+unsigned parse_order(const std::string& option, const std::string& text);
 LabellingConfig parse_labelling(const LabellingArguments& arguments);
 
 }  // namespace thalweg::cli

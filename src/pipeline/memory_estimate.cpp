@@ -2,8 +2,9 @@
 //
 // The figures are measured: peak memory of whole runs of 10^4 to 4 x 10^6 points to PLY is 53 MiB and up to
 // 203 bytes a random point, 210 a lattice point at order 1 and below; at orders 2 and 3 it is 1 051 and 1 220
-// bytes a random point. Longitudes and latitudes take up to 314, a simplification that keeps most points 392,
-// both 535. Rasters of 10^8 cells take 20 bytes a cell as GeoTIFF in single precision, 32 in double.
+// bytes a random point, at order 1 under definitions with overlaps up to 1 000. Longitudes and latitudes take
+// up to 314, a simplification that keeps most points 392, both 535. Rasters of 10^8 cells take 20 bytes a
+// cell as GeoTIFF in single precision, 32 in double.
 #include "pipeline/memory_estimate.hpp"
 
 #include "base/memory.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr std::size_t kBytesOfProgram = std::size_t{53} << 20U;
 constexpr std::size_t kBytesAVertex = 220;
-constexpr std::size_t kBytesAVertexAboveOrder1 = 1500;
+constexpr std::size_t kBytesAVertexByFaces = 1500;
 constexpr std::size_t kBytesToProject = 125;
 constexpr std::size_t kBytesToSimplify = 200;
 
@@ -29,8 +30,7 @@ std::string in_mebibytes(std::size_t bytes) {
 }  // namespace
 
 MemoryEstimate::MemoryEstimate(const BuildConfig& config)
-    : bytes_a_vertex_(config.labelling.order > 1 || config.labelling.heuristic ? kBytesAVertexAboveOrder1
-                                                                               : kBytesAVertex) {
+    : bytes_a_vertex_(config.labelling.by_faces() ? kBytesAVertexByFaces : kBytesAVertex) {
   if (config.max_error_m || config.max_points) bytes_a_vertex_ += kBytesToSimplify;
   // The program itself is there already.
   const MemoryRoom room = memory_room();

@@ -6,6 +6,7 @@
 // inside of the outline: a flood from the inner side of every outline edge that does not cross the outline.
 #include "delaunay/spatial_order.hpp"
 #include "pipeline/condition_tin.hpp"
+#include "pipeline/higher_order.hpp"
 #include "pipeline/loaded_tin.hpp"
 #include "pipeline/outlets.hpp"
 #include "pipeline/plane.hpp"
@@ -134,6 +135,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
   report.command = "optimize";
   report.engine = engine_name(TriangulationEngine::Flat);
   check_condition(config.condition, config.labelling, config.output);
+  check_choice_by_faces(config.labelling, config.output, false);
   RunOutputs outputs(config.output, sources_of(config));
 
   progress.start_phase("read");

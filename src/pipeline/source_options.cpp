@@ -139,6 +139,12 @@ void add_crossing_option(CLI::App& command, GroundOptions& ground) {
       ->default_str(ground.crossing == CrossingRule::Error ? "error" : "auto");
 }
 
+void require_lines_to_cross(CrossingRule crossing, CrossingRule by_default,
+                            std::span<const LineSource> lines) {
+  if (!lines.empty() || crossing == by_default) return;
+  throw Error(ErrorCode::Usage, "--crossing is about lines (--ridges, --valleys, ...), and none are given");
+}
+
 void apply_sources(const SourceArguments& arguments, ReadOptions& read, std::vector<LineSource>& lines) {
   add_lines(arguments.ridges, EdgeKind::Ridge, lines);
   add_lines(arguments.valleys, EdgeKind::Valley, lines);

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct SourceArguments {
 
 void add_source_options(CLI::App& command, SourceArguments& arguments, ReadOptions& read);
 void add_crossing_option(CLI::App& command, GroundOptions& ground);
+/// Throws: Error{Usage} if --crossing asks for something, and no lines are given.
+void require_lines_to_cross(CrossingRule crossing, CrossingRule by_default,
+                            std::span<const LineSource> lines);
 /// Reads "xmin,ymin,xmax,ymax"; `option` is named in errors. Throws: Error{Usage}.
 Box2 parse_box(const std::string& option, const std::string& text);
 /// Checks of options: a finite number above 0; one that is not below it.

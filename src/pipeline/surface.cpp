@@ -336,19 +336,6 @@ Outcome outcome_of(Labelled labelled, Terrain terrain, std::vector<std::uint8_t>
   return outcome;
 }
 
-void refuse_with_faces(const Terrain& terrain, const RunContext& run) {
-  const auto refuse = [&](const std::string& what) {
-    throw Error(
-        ErrorCode::Unsupported,
-        what + (run.labelling.order > 1 ? " is not available at orders above 1; take --order 1"
-                : run.labelling.heuristic
-                    ? " is not available with --method flip and hull; take --method exact"
-                    : " is not available under sees-3vtx and empty-quad; take --definition sees-opp"));
-  };
-  if (!run.outputs.problem.empty()) refuse("--dump-problem");
-  if (!terrain.left_out.xy.empty()) refuse("simplification");
-}
-
 void write_problem(const Labelled& labelled, const RunContext& run, Progress& progress) {
   std::ofstream file(run.outputs.problem, std::ios::binary);
   dump_problem(file, labelled.delaunay, labelled.quadrilaterals, labelled.options, progress);
@@ -392,7 +379,6 @@ void write_tin_of(const BuiltTin& built, const OutputConfig& output, PendingOutp
 }
 
 void finish_run(Terrain terrain, const RunContext& run, BuiltTin& built, Progress& progress) {
-  if (run.labelling.by_faces()) refuse_with_faces(terrain, run);
   Report& report = built.report;
   Labelled labelled = choose_diagonals(terrain, run, report.timings_s, progress);
 

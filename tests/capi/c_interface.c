@@ -243,6 +243,15 @@ static void test_optimize(const char* folder) {
   EXPECT(memcmp(shortest, driest, 3 * triangles * sizeof(uint32_t)) != 0);
   EXPECT(length_of_edges(tin) > 0 && length_of_edges(tin) <= length_of_edges(drained));
 
+  /* The options of the command, conditioning among them. */
+  thalweg_job* fill = thalweg_job_new();
+  thalweg_tin* filled = NULL;
+  EXPECT(thalweg_job_set_option(fill, "condition", "fill") == THALWEG_OK);
+  EXPECT(thalweg_job_optimize(fill, path, &filled) == THALWEG_OK);
+  EXPECT(strstr(thalweg_tin_report(filled), "\"conditioned\"") != NULL);
+  thalweg_tin_free(filled);
+  thalweg_job_free(fill);
+
   EXPECT(thalweg_job_optimize(job, NULL, &none) == THALWEG_USAGE && none == NULL);
   EXPECT(thalweg_job_optimize(job, path, NULL) == THALWEG_USAGE);
   EXPECT(thalweg_job_optimize(NULL, path, &none) == THALWEG_USAGE);

@@ -30,6 +30,7 @@ void run_build(const CLI::App& command, BuildCommand& a) {
   std::vector<SourceSpec> points;
   for (std::size_t i = 0; i + 1 < a.files.size(); ++i) points.push_back(parse_source(a.files[i]));
   BuildConfig config = config_of(command, std::move(a.arguments));
+  require_lines_to_cross(config.ground.crossing, GroundOptions().crossing, config.lines);
   config.points = std::move(points);
   config.output = a.output;
   config.output.path = a.files.back();

@@ -40,34 +40,34 @@ std::array<std::uint32_t, 3> parse_triangle(const std::string& text) {
   return corners;
 }
 
-std::size_t parse_max_order(const std::string& text) {
-  std::size_t order = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), order);
-  constexpr std::size_t kLargest = 1000;
-  if (error != std::errc() || rest != text.data() + text.size() || order > kLargest) {
-    throw Error(ErrorCode::Usage, "--order takes a whole number from 0 to 1000, not '" + text + "'");
+// Refuses what would be read and not used.
+void check_use(const CLI::App& command, const OrderArguments& a) {
+  bool of_order = false;
+  for (const char* option : {"--list-triangles", "--list-edges", "--list-conflicts"})
+    of_order |= command.count(option) > 0;
+  const bool lists = of_order || command.count("--list-quadrilaterals") > 0;
+  const bool other = !a.triangles.empty() || a.config.census;
+  // Without a list std tells of the smallest order that a triangulation can have.
+  if (command.count("--definition") > 0 && !lists && (other || a.definition != "std")) {
+    throw Error(ErrorCode::Usage,
+                "--definition is that of lists; --triangle and --census tell of all definitions");
   }
-  return order;
+  if (command.count("--order") > 0 && !of_order && !a.config.census) {
+    throw Error(
+        ErrorCode::Usage,
+        "--order is the largest of lists and of --census; ask for one of them (quadrilaterals have 1)");
+  }
 }
 
 void run_order(const CLI::App& command, OrderArguments& a) {
   OrderConfig& config = a.config;
-  bool lists = false;
-  for (const char* option : {"--list-triangles", "--list-edges", "--list-conflicts", "--list-quadrilaterals"})
-    lists |= command.count(option) > 0;
-  const bool triangles = !a.triangles.empty();
-  if (command.count("--definition") > 0 && !lists && (triangles || config.census)) {
-    throw Error(ErrorCode::Usage,
-                "--definition is that of lists; --triangle and --census tell of all definitions");
-  }
-  if (command.count("--order") > 0 && !lists && !config.census && triangles) {
-    throw Error(ErrorCode::Usage, "--order is the largest of lists and of --census; ask for one of them");
-  }
+  check_use(command, a);
   for (const std::string& source : a.points) config.points.push_back(parse_source(source));
   apply_sources(a.sources, config.read, config.lines);
+  require_lines_to_cross(config.ground.crossing, OrderConfig().ground.crossing, config.lines);
   for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
   config.definition = parse_definition(a.definition);
-  config.max_order = parse_max_order(a.order);
+  config.max_order = parse_order("--order", a.order);
   config.announce = [&a](const OrderResult& result) {
     if (a.common.format == Format::Json) {
       print(to_json(result));

@@ -61,7 +61,7 @@ void add_verify_command(CLI::App& app) {
       "which constrained order (default: the report's, else sees-opp): " + definition_names());
   command
       ->add_option("--order", a->config.order, "largest order of a triangle (default: the report's, else 1)")
-      ->check(CLI::Range(0U, 1000U));
+      ->check(CLI::Range(0U, kLargestOrder));
   command->add_option("--reference", a->reference,
                       "what vertical-error was measured against: a DEM, or points");
   command->add_option("--points", a->points, "sources of points that the TIN was built of; repeatable")

@@ -63,6 +63,9 @@ struct FaceOptimizeResult {
 FaceOptimizeResult optimize_faces(const Tin& delaunay, const FixedFaces& faces,
                                   const FaceOptimizeOptions& options, Progress& progress);
 
+/// Throws: Error{Unsupported} for a criterion that `optimize_faces` does not take.
+void require_face_criteria(const std::vector<Objective>& criteria);
+
 /// Bounds the values of another choice by those of one that may have more: `of` are its criteria, `alone` its
 /// `bounds_alone`, which hold where a criterion before is not reached. Says what is `optimal`, and adds to
 /// the methods.
