@@ -38,6 +38,16 @@ void end_progress_line();
 /// Prints data to stdout whole. Throws: Error{WriteFailed} (a closed pipe, a full disk).
 void print(const std::string& text);
 
+/// Prints a result as --format says; quiet holds back text alone, for JSON was asked for.
+template <class Result>
+void print_result(const Result& result, const Common& common) {
+  if (common.format == Format::Json) {
+    print(to_json(result));
+  } else if (common.quiet == 0) {
+    print(to_text(result));
+  }
+}
+
 /// Registers the subcommands.
 void add_build_command(CLI::App& app);
 void add_optimize_command(CLI::App& app);

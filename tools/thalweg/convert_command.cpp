@@ -84,12 +84,7 @@ void run_convert(const CLI::App& command, ConvertArguments& a) {
   }
   if (raster) a.config.raster = a.raster;
   a.config.announce = [&a](const ConvertResult& result) {
-    if (is_standard_output(a.config.output)) return;
-    if (a.common.format == Format::Json) {
-      print(to_json(result));
-    } else if (a.common.quiet == 0) {
-      print(to_text(result));
-    }
+    if (!is_standard_output(a.config.output)) print_result(result, a.common);
   };
   convert_tin(a.config, progress_of(a.common));
 }

@@ -70,10 +70,10 @@ void add_drain_command(CLI::App& app) {
     if (a->min_area >= 0) a->config.min_area_m2 = a->min_area;
     a->config.condition = parse_condition(*command, a->condition, {"--conditioned"});
     a->config.announce = [&a](const DrainReport& report) {
-      if (a->config.report_path == "-" || (a->common.quiet == 0 && a->common.format == Format::Json)) {
+      if (a->config.report_path == "-") {
         print(to_json(report));
-      } else if (a->common.quiet == 0) {
-        print(to_text(report));
+      } else {
+        print_result(report, a->common);
       }
     };
     drain_tin(a->config, progress_of(a->common));

@@ -159,7 +159,8 @@ void add_examples(CLI::App& command, const std::string& lines) {
 
 void add_common_options(CLI::App& command, Common& common) {
   command.set_version_flag("--version", "thalweg " + version());
-  command.add_flag("-q,--quiet", common.quiet, "no progress and no summary; only errors");
+  command.add_flag("-q,--quiet", common.quiet,
+                   "no progress and no summary (but what -f json asks for); only errors");
   command.add_flag("--progress", common.progress, "draw progress also where stderr is no terminal");
   take_one_of<Format>(command.add_option("-f,--format", common.format, "what is printed: text or json"),
                       {{"text", Format::Text}, {"json", Format::Json}})

@@ -24,14 +24,12 @@ void add_output_options(CLI::App& command, OutputConfig& output) {
 }
 
 std::function<void(const Report&)> report_printer(const Common& common, const OutputConfig& output) {
-  const auto print_json = [](const Report& report) { print(to_json(report)); };
   if (output.report_path == "-" && is_standard_output(output.path)) {
     throw Error(ErrorCode::Usage, "TIN and report cannot both go to standard output; name a file for one");
   }
-  if (output.report_path == "-") return print_json;
-  if (common.quiet != 0 || is_standard_output(output.path)) return {};
-  if (common.format == Format::Json) return print_json;
-  return [](const Report& report) { print(to_text(report)); };
+  if (output.report_path == "-") return [](const Report& report) { print(to_json(report)); };
+  if (is_standard_output(output.path)) return {};
+  return [&common](const Report& report) { print_result(report, common); };
 }
 
 }  // namespace thalweg::cli

@@ -25,11 +25,7 @@ void refuse_given(const std::vector<CLI::Option*>& of_sources) {
 
 /// Throws: Error{InvalidTin} if something does not hold.
 void tell(const VerifyResult& result, const Common& common) {
-  if (common.format == Format::Json) {
-    print(to_json(result));
-  } else if (common.quiet == 0) {
-    print(to_text(result));
-  }
+  print_result(result, common);
   if (result.holds()) return;
   const auto broken =
       std::find_if(result.findings.begin(), result.findings.end(),
