@@ -13,6 +13,8 @@
 // 5. Positions in text (UTM, MGRS) have columns of their own names; z is then named, or follows them.
 #include "io/text_format.hpp"
 
+#include "base/lower_case.hpp"
+
 #include <thalweg/base/error.hpp>
 
 #include <algorithm>
@@ -56,12 +58,6 @@ std::string_view unquote(std::string_view field) {
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
     field = trim(field.substr(1, field.size() - 2));
   return field;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
 }
 
 bool stands_outside_quotes(std::string_view row, char separator) {
