@@ -55,7 +55,15 @@ void run_order(const CLI::App& command, OrderArguments& a) {
   bool lists = false;
   for (const char* option : {"--list-triangles", "--list-edges", "--list-conflicts", "--list-quadrilaterals"})
     lists |= command.count(option) > 0;
+  bool list_is_printed = false;
+  for (const std::string* path :
+       {&config.triangles_path, &config.edges_path, &config.conflicts_path, &config.quadrilaterals_path})
+    list_is_printed |= is_standard_output(*path);
   const bool triangles = !a.triangles.empty();
+  if (list_is_printed && (triangles || config.census)) {
+    throw Error(ErrorCode::Usage,
+                "a list and answers cannot both go to standard output; name a file for the list");
+  }
   if (command.count("--definition") > 0 && !lists && (triangles || config.census)) {
     throw Error(ErrorCode::Usage,
                 "--definition is that of lists; --triangle and --census tell of all definitions");
@@ -68,7 +76,8 @@ void run_order(const CLI::App& command, OrderArguments& a) {
   for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
   config.definition = parse_definition(a.definition);
   config.max_order = parse_max_order(a.order);
-  config.announce = [&a](const OrderResult& result) {
+  config.announce = [&a, list_is_printed](const OrderResult& result) {
+    if (list_is_printed) return;
     if (a.common.format == Format::Json) {
       print(to_json(result));
     } else if (a.common.quiet == 0 || !result.asked.empty() || a.config.census) {
