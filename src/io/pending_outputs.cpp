@@ -1,17 +1,16 @@
 // Outputs that appear whole or not at all.
 //
 // 1. The temporary file lies in the target's own folder, so that the rename never crosses a file system and
-// is atomic.
+//    is atomic.
 // 2. Whether the folder can be written is asked by creating that file and removing it again: permission bits
-// say
-//    nothing about read-only file systems, or to root.
+//    say nothing about read-only file systems, or to root.
 // 3. On commit: fsync every file, rename every file, fsync every folder (else a power cut may undo the
-// rename).
+//    rename).
 // 4. All that live are listed, so that a process which is told to end can remove their files while its other
-// threads are still at work. The lock of the list is held while names change and files are given their
-// targets, and is not given back once they were abandoned.
+//    threads are still at work. The lock of the list is held while names change and files are given their
+//    targets, and is not given back once they were abandoned.
 // 5. An open descriptor stands as the name of a link in /proc/self/fd; what this leads to may have no name
-// (pipe:[...]), or be a file that others go on to write to, so it is neither resolved nor replaced.
+//    (pipe:[...]), or be a file that others go on to write to, so it is neither resolved nor replaced.
 #include "base/lower_case.hpp"
 #include "io/dataset.hpp"
 #include "io/file_writer.hpp"

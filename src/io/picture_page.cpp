@@ -1,11 +1,9 @@
 // Pages and maps.
 //
 // 1. Cairo draws into a surface of the format; what it writes passes through a file writer of ours, so that a
-// full
-//    disk is an error.
+//    full disk is an error.
 // 2. The relief is always an image, of twice the page's resolution in SVG and PDF. Outlines of triangles are
-// lines
-//    over it, or a part of it where they would make a vector file unwieldy.
+//    lines over it, or a part of it where they would make a vector file unwieldy.
 #include "io/picture_page.hpp"
 
 #include "base/lower_case.hpp"

@@ -1,8 +1,7 @@
 // Vector layers of a TIN, by GDAL: all of them in a GeoPackage, or one in a format that holds one.
 //
 // 1. One transaction; SQLite's own journal and syncs are off, because the file is a temporary one that is
-// flushed as a
-//    whole before it gets its name.
+//    flushed as a whole before it gets its name.
 // 2. Features and geometries are made once a layer and refilled.
 // 3. GDAL's close returns nothing: what it said while closing decides whether the file is whole.
 // 4. The spatial index is filled at once when all features are there (spatial_index.cpp).

@@ -1,8 +1,7 @@
 // Two TINs of the same vertices, side by side.
 //
 // 1. The vertices of both are sorted by position; they must be the same to the last bit. The second TIN gets
-// the
-//    ids of the first, so that formats that number vertices anew can be compared, too.
+//    the ids of the first, so that formats that number vertices anew can be compared, too.
 // 2. An edge changed if the other TIN has no edge between the same vertices.
 #include "base/lower_case.hpp"
 #include "pipeline/loaded_tin.hpp"
