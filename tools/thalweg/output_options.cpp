@@ -29,7 +29,11 @@ std::function<void(const Report&)> report_printer(const Common& common, const Ou
     throw Error(ErrorCode::Usage, "TIN and report cannot both go to standard output; name a file for one");
   }
   if (output.report_path == "-") return print_json;
-  if (common.quiet != 0 || is_standard_output(output.path)) return {};
+  // No summary into what is read by a program.
+  for (const std::string* path : {&output.path, &output.proof_path, &output.problem_path}) {
+    if (is_standard_output(*path)) return {};
+  }
+  if (common.quiet != 0) return {};
   if (common.format == Format::Json) return print_json;
   return [](const Report& report) { print(to_text(report)); };
 }
