@@ -4,6 +4,7 @@
 #include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
 #include <thalweg/pipeline/order_points.hpp>
 
 #include <charconv>
