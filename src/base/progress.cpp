@@ -18,6 +18,7 @@ void Progress::advance(double fraction) {
   if (!report_ || (fraction < reported_ + kStep && fraction < 1)) return;
   reported_ = fraction;
   report_(phase_, fraction);
+  check();  // whoever was told may have asked to stop
 }
 
 void Progress::check() const {

@@ -1,16 +1,14 @@
 // The ground of a survey.
 //
 // 1. Merge equal positions; draw points and lines, noded, as one plan; settle the heights that points and
-// hard
-//    lines give.
+//    hard lines give.
 // 2. Vertices that only soft lines have take the height of the base: the triangulation of all points and hard
 //    lines, drawn by themselves.
 // 3. Triangulate, under ids along a curve if that was asked for: what is close in the plane is then close in
 //    memory, for all that follows. In polygon mode flood the triangles for those inside, and keep these and
-//    their vertices.
-//    That equals dropping all that is outside first, because no empty circle has to heed what is behind a
-//    constraint edge. Points beyond the box of the boundary are dropped before, which saves triangulating
-//    them.
+//    their vertices. That equals dropping all that is outside first, because no empty circle has to heed what
+//    is behind a constraint edge. Points beyond the box of the boundary are dropped before, which saves
+//    triangulating them.
 #include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "base/release.hpp"

@@ -5,8 +5,7 @@
 //    numbered; there are few.
 // 2. Lakes with a vertex in common are united: water there has one level.
 // 3. The level of a body of water is the lowest height that its rings were given, else the lowest height
-// along
-//    its shore. Every corner of its triangles gets it.
+//    along its shore. Every corner of its triangles gets it.
 #include "lakes.hpp"
 
 #include "base/union_find.hpp"

@@ -5,9 +5,8 @@
 //    line.
 // 2. Points without snapping: each run of equal positions is one group.
 // 3. With snapping a sweep in that order keeps the representatives within reach in x, sorted by y; two of
-// them
-//    are farther apart than the reach, so a window of reach by reach holds only a few. First the points: each
-//    joins the first representative within reach, or becomes one. Then the line vertices: each takes the
+//    them are farther apart than the reach, so a window of reach by reach holds only a few. First the points:
+//    each joins the first representative within reach, or becomes one. Then the line vertices: each takes the
 //    nearest point's representative within reach; the others are swept among themselves as points were. Their
 //    reach is at least a quarter of a pixel: with noding, which bends by less than 0.75 pixels, a line stays
 //    within a pixel of what was drawn.

@@ -4,8 +4,7 @@
 //    those of the areas that it is in, boundaries and holes apart. If it is in none, that is 0; if it is in
 //    several, it would be 0 only by a coincidence of 64 bits. The patterns are the same in every run.
 // 2. Rings are closed walks, so the exclusive or of the patterns that a path crosses depends only on its
-// ends:
-//    noding may bend a ring, or fold parts of it upon each other, which then cancel out.
+//    ends: noding may bend a ring, or fold parts of it upon each other, which then cancel out.
 // 3. Flood from the rim, outside of which the pattern is 0, from triangle to triangle.
 #include "region.hpp"
 

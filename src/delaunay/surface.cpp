@@ -2,10 +2,9 @@
 //
 // 1. Start: a grid of about one cell a triangle-dozen remembers a triangle near each cell.
 // 2. Walk: from triangle to triangle across an edge that has p strictly on its far side; the edge that is
-// tried
-//    first is chosen pseudo-randomly, which ends with probability one in every triangulation (Devillers,
-//    Pion, Teillaud, Walking in a triangulation, 2002). The choice is seeded by the walk itself, so that
-//    equal calls take equal steps; the supports found do not depend on it.
+//    tried first is chosen pseudo-randomly, which ends with probability one in every triangulation
+//    (Devillers, Pion, Teillaud, Walking in a triangulation, 2002). The choice is seeded by the walk itself,
+//    so that equal calls take equal steps; the supports found do not depend on it.
 // 3. A walk that leaves through the rim proves p outside if the surface is convex. Else a tree of the
 //    triangles' boxes answers.
 // 4. Interpolation sorts its supports by position first, so rounding is the same whatever the order of ids.

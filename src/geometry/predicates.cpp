@@ -5,8 +5,7 @@
 //    points close together at large offsets), the determinant is computed in integers of 128 and 256 bits.
 //    Everything else, and the side of a plane: CGAL's filtered kernel on the same doubles.
 // 2. The tie rule: sort the four points; the largest that is one of a, b, c, and whose replacement by d
-// leaves
-//    a proper triangle, decides by that triangle's orientation; if d comes first, it is outside.
+//    leaves a proper triangle, decides by that triangle's orientation; if d comes first, it is outside.
 //    Points are handed on by reference: a copy of what was just stored in parts waits for all of them.
 // 3. Segment against open disc: the condition is written without division as signs of polynomials in
 //    coordinates relative to a, evaluated in intervals first and in rationals where those do not decide.

@@ -1,12 +1,10 @@
 // Reading CRS definitions.
 //
 // 1. OGRSpatialReference understands the definition (without asking the network) and tells the kind, the
-// horizontal
-//    unit and the ellipsoid.
+//    horizontal unit and the ellipsoid.
 // 2. The unit of heights stands in the coordinate system of the vertical part, which OGRSpatialReference
-// shows only
-//    for compound CRSs; PROJJSON shows it always: the last axis, if there are three, or the vertical
-//    component.
+//    shows only for compound CRSs; PROJJSON shows it always: the last axis, if there are three, or the
+//    vertical component.
 #include "io/gdal_session.hpp"
 #include "io/spatial_reference.hpp"
 

@@ -1,4 +1,5 @@
 // The table of TIN formats, and the checks of creation options against it.
+#include "base/lower_case.hpp"
 #include "io/tin_format.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -13,8 +14,7 @@ namespace thalweg {
 namespace {
 
 bool same_word(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+  return lower(a) == lower(b);
 }
 
 std::string_view key_of(std::string_view pair) {
@@ -76,11 +76,11 @@ bool recognises_off(std::string_view head, const std::string&) {
 
 // OBJ and binary STL have no signature.
 bool recognises_obj(std::string_view, const std::string& path) {
-  return same_word(std::filesystem::path(path).extension().string(), ".obj");
+  return extension_of(path) == ".obj";
 }
 
 bool recognises_stl(std::string_view, const std::string& path) {
-  return same_word(std::filesystem::path(path).extension().string(), ".stl");
+  return extension_of(path) == ".stl";
 }
 
 using Crs = TinFormat::Crs;
@@ -240,12 +240,7 @@ bool CreationOptions::enabled(std::string_view key) const {
 }
 
 std::vector<std::string> CreationOptions::list(std::string_view key) const {
-  std::vector<std::string> words = split(value(key), ',');
-  for (std::string& word : words) {
-    std::transform(word.begin(), word.end(), word.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  }
-  return words;
+  return split(lower(value(key)), ',');
 }
 
 std::span<const TinFormat> tin_format_table() {

@@ -1,5 +1,6 @@
 #include "io/height_unit.hpp"
 
+#include "base/lower_case.hpp"
 #include "io/file_content.hpp"
 #include "io/spatial_reference.hpp"
 
@@ -8,14 +9,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 namespace thalweg {
 
-std::optional<double> metres_of_unit(std::string unit) {
-  std::transform(unit.begin(), unit.end(), unit.begin(),
-                 [](unsigned char c) { return static_cast<char>(c == '_' ? ' ' : std::tolower(c)); });
+std::optional<double> metres_of_unit(std::string_view name) {
+  std::string unit = lower(name);
+  std::ranges::replace(unit, '_', ' ');
   struct Unit {
     std::string_view name;
     double metres;

@@ -6,12 +6,13 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace thalweg {
 
 /// Metres of a unit by name ("ft", "US survey foot"), or of so many metres ("0.3048 m"); none if it is not
 /// told or not known.
-std::optional<double> metres_of_unit(std::string unit);
+std::optional<double> metres_of_unit(std::string_view name);
 
 /// The definition of a CRS of which the unit alone is known; empty for metres.
 std::string local_crs(const std::string& unit, double metres_per_unit);

@@ -10,6 +10,7 @@
 // Points marked as withheld are deleted ones, says the specification, and are left out.
 #include "io/las_points.hpp"
 
+#include "base/lower_case.hpp"
 #include "io/gdal_session.hpp"
 #include "io/geotiff_keys.hpp"
 #include "io/laz_points.hpp"
@@ -23,7 +24,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -332,10 +332,7 @@ class LasPoints : public SourceReader {
 }  // namespace
 
 bool is_las(const SourceSpec& spec) {
-  const std::size_t dot = spec.path.find_last_of("./");
-  std::string extension = dot == std::string::npos ? "" : spec.path.substr(dot);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(spec.path);
   return extension == ".las" || extension == ".laz";
 }
 

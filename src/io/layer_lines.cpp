@@ -4,13 +4,13 @@
 // With a box, a line stays if one of its segments meets it. For areas the decision falls on the whole
 // feature: its rings stay if one of them meets the box or if the box lies inside. Boundaries always stay:
 // without them their outside would become ground.
+#include "base/lower_case.hpp"
 #include "io/layer_reader.hpp"
 
 #include <thalweg/base/error.hpp>
 #include <thalweg/geometry/predicates.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <optional>
 #include <span>
@@ -60,9 +60,8 @@ bool is_area(EdgeKind kind) {
 }
 
 /// The kind that an attribute's text says; none if it says neither ridge nor valley.
-std::optional<EdgeKind> to_kind(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+std::optional<EdgeKind> to_kind(std::string_view word) {
+  std::string text = lower(word);
   text.erase(0, text.find_first_not_of(' '));
   if (text.rfind("ridge", 0) == 0) return EdgeKind::Ridge;
   if (text.rfind("valley", 0) == 0) return EdgeKind::Valley;
@@ -175,9 +174,7 @@ class LayerLines : public LayerReader {
         ++result.lines_outside_bbox;
         continue;
       }
-      ++result.breaklines_read;
-      result.breakline_vertices += line.xy.size();
-      if (line.xy.size() < 2) {
+      if (!take_line(run, line)) {
         ++short_;
         continue;
       }
@@ -194,8 +191,7 @@ class LayerLines : public LayerReader {
   void report(ReadContext& run) const {
     if (empty_ > 0)
       run.note(name() + ": " + std::to_string(empty_) + " features without geometry were skipped");
-    if (short_ > 0)
-      run.note(name() + ": " + std::to_string(short_) + " lines of fewer than two vertices were skipped");
+    note_short_lines(run, short_);
   }
 
   EdgeKind kind_;

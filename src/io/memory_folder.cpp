@@ -1,6 +1,7 @@
 // A folder of GDAL's /vsimem/ with a name of its own.
 #include "io/memory_folder.hpp"
 
+#include "base/lower_case.hpp"
 #include "io/file_content.hpp"
 #include "io/file_writer.hpp"
 #include "io/spatial_reference.hpp"
@@ -52,7 +53,7 @@ void refuse_files_beside(const std::string& folder, const std::string& path, con
 std::vector<std::string> companions(const std::string& target) {
   std::vector<std::string> files;
   for (const char* end : {".aux.xml", ".ovr", ".msk"}) files.push_back(target + end);
-  const std::string extension = std::filesystem::path(target).extension().string();
+  const std::string extension = extension_of(target);
   const auto beside = [&](const char* end) {
     files.push_back(std::filesystem::path(target).replace_extension(end).string());
   };

@@ -55,6 +55,7 @@ class MemoryLines : public SourceReader {
       throw Error(ErrorCode::Usage, name() + " are not cut by a box; pass only the lines that are wanted");
     }
     std::vector<SurveyLine>& lines = run.result.survey.lines;
+    std::size_t too_short = 0;
     for (std::size_t i = 0; i < source_.lines.size(); ++i) {
       SurveyLine line{.kind = source_.lines[i].kind,
                       .xy = source_.lines[i].xy,
@@ -63,10 +64,13 @@ class MemoryLines : public SourceReader {
                       .feature = static_cast<std::int64_t>(i)};
       check(line, i);
       transform.apply(line.xy, line.z);
-      ++run.result.breaklines_read;
-      run.result.breakline_vertices += line.xy.size();
-      lines.push_back(std::move(line));
+      if (take_line(run, line)) {
+        lines.push_back(std::move(line));
+      } else {
+        ++too_short;
+      }
     }
+    note_short_lines(run, too_short);
   }
 
  private:

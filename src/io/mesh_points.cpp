@@ -2,6 +2,7 @@
 // anywhere in it; its faces are dropped, so that a cloud of points without any will do.
 #include "io/mesh_points.hpp"
 
+#include "base/lower_case.hpp"
 #include "base/release.hpp"
 #include "io/file_content.hpp"
 #include "io/point_collector.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -52,11 +52,7 @@ class MeshPoints : public SourceReader {
 }  // namespace
 
 bool is_mesh(const SourceSpec& spec) {
-  const std::size_t dot = spec.path.find_last_of("./");
-  if (dot == std::string::npos) return false;
-  std::string extension = spec.path.substr(dot);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(spec.path);
   constexpr std::array<std::string_view, 7> kMeshes = {".ply", ".2dm", ".obj",    ".off",
                                                        ".stl", ".xml", ".landxml"};
   if (extension == ".nc") return spec.layer.empty() && holds_ugrid_mesh(spec.path);

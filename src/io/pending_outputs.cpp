@@ -1,17 +1,17 @@
 // Outputs that appear whole or not at all.
 //
 // 1. The temporary file lies in the target's own folder, so that the rename never crosses a file system and
-// is atomic.
+//    is atomic.
 // 2. Whether the folder can be written is asked by creating that file and removing it again: permission bits
-// say
-//    nothing about read-only file systems, or to root.
+//    say nothing about read-only file systems, or to root.
 // 3. On commit: fsync every file, rename every file, fsync every folder (else a power cut may undo the
-// rename).
+//    rename).
 // 4. All that live are listed, so that a process which is told to end can remove their files while its other
-// threads are still at work. The lock of the list is held while names change and files are given their
-// targets, and is not given back once they were abandoned.
+//    threads are still at work. The lock of the list is held while names change and files are given their
+//    targets, and is not given back once they were abandoned.
 // 5. An open descriptor stands as the name of a link in /proc/self/fd; what this leads to may have no name
-// (pipe:[...]), or be a file that others go on to write to, so it is neither resolved nor replaced.
+//    (pipe:[...]), or be a file that others go on to write to, so it is neither resolved nor replaced.
+#include "base/lower_case.hpp"
 #include "io/dataset.hpp"
 #include "io/file_writer.hpp"
 
@@ -125,10 +125,12 @@ bool give_name(const std::string& written, const std::string& target, Overwrite 
 }
 
 // What SQLite may leave beside a database when it is stopped.
-constexpr std::array<const char*, 3> kRemains = {"-journal", "-wal", "-shm"};
+std::array<std::string, 3> remains_of(const std::string& database) {
+  return {database + "-journal", database + "-wal", database + "-shm"};
+}
 
 bool is_database(const fs::path& target) {
-  return target.extension() == ".gpkg";
+  return extension_of(target.native()) == ".gpkg";
 }
 
 // What such remains hold would be taken for a part of the new database.
@@ -148,7 +150,7 @@ void refuse_open_database(const std::string& target) {
 struct Living {
   std::mutex lock;
   std::vector<const PendingOutputs*> all;
-  bool committed = false;
+  bool committed = false;  ///< one of them, which may be gone by now
 };
 
 Living& living() {
@@ -192,13 +194,14 @@ void PendingOutputs::remove_written() const noexcept {
   for (const Output& output : outputs_) {
     if (!output.is_file()) continue;
     ::unlink(output.written.c_str());
-    for (const char* remains : kRemains) ::unlink((output.written + remains).c_str());
+    for (const std::string& remains : output.remains) ::unlink(remains.c_str());
   }
 }
 
 bool abandon_pending_outputs() noexcept {
   living().lock.lock();
-  if (living().committed) {
+  const auto is_pending = [](const PendingOutputs* outputs) { return !outputs->committed_; };
+  if (living().committed && std::ranges::none_of(living().all, is_pending)) {
     living().lock.unlock();
     return false;
   }
@@ -213,14 +216,14 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
                 "'-' is no file: only --report goes to stdout; give a path, or /dev/stdout");
   }
   if (const std::optional<int> descriptor = descriptor_of(target)) {
-    return {name_of_descriptor(*descriptor), name_of_descriptor(*descriptor), mode};
+    return {name_of_descriptor(*descriptor), name_of_descriptor(*descriptor), mode, {}};
   }
   std::error_code ignored;
   const fs::file_status status = fs::status(target, ignored);
   if (fs::is_directory(status)) {
     throw Error(ErrorCode::Usage, target + ": is a folder; give the name of a file in it");
   }
-  if (is_stream(target)) return {target, target, mode};
+  if (is_stream(target)) return {target, target, mode, {}};
   if (fs::is_block_file(status) || fs::is_socket(status)) {
     throw Error(ErrorCode::Usage, target + ": is a block device or a socket; give the name of a file");
   }
@@ -239,7 +242,8 @@ PendingOutputs::Output PendingOutputs::output_of(const std::string& target, Over
     throw Error(ErrorCode::Usage,
                 target + ": is a source or a part of one, and would be lost; give the output another name");
   }
-  return {path.string(), unused_path(path).string(), mode};
+  const std::string written = unused_path(path).string();
+  return {path.string(), written, mode, remains_of(written)};
 }
 
 void PendingOutputs::check_new(const Output& output, const std::vector<Output>& known) {
@@ -292,12 +296,12 @@ void PendingOutputs::commit() {
     refuse_open_database(output.target);
   }
   const std::scoped_lock lock(living().lock);
-  living().committed = true;
+  committed_ = living().committed = true;
   for (const std::string& stale : stale_) ::unlink(stale.c_str());
   for (Output& output : outputs_) {
     if (!output.is_file()) continue;
     if (is_database(output.target)) {
-      for (const char* remains : kRemains) ::unlink((output.target + remains).c_str());
+      for (const std::string& remains : remains_of(output.target)) ::unlink(remains.c_str());
     }
     if (!give_name(output.written, output.target, output.mode)) {
       if (errno == EEXIST) throw exists_already(output.target);

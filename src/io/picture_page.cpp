@@ -1,13 +1,12 @@
 // Pages and maps.
 //
 // 1. Cairo draws into a surface of the format; what it writes passes through a file writer of ours, so that a
-// full
-//    disk is an error.
+//    full disk is an error.
 // 2. The relief is always an image, of twice the page's resolution in SVG and PDF. Outlines of triangles are
-// lines
-//    over it, or a part of it where they would make a vector file unwieldy.
+//    lines over it, or a part of it where they would make a vector file unwieldy.
 #include "io/picture_page.hpp"
 
+#include "base/lower_case.hpp"
 #include "io/file_writer.hpp"
 #include "io/picture_legend.hpp"
 
@@ -17,7 +16,6 @@
 #include <cairo-svg.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -27,12 +25,10 @@
 namespace thalweg {
 
 PictureFormat parse_picture_extension(const std::string& extension) {
-  std::string lower = extension;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (lower == ".png") return PictureFormat::Png;
-  if (lower == ".svg") return PictureFormat::Svg;
-  if (lower == ".pdf") return PictureFormat::Pdf;
+  const std::string name = lower(extension);
+  if (name == ".png") return PictureFormat::Png;
+  if (name == ".svg") return PictureFormat::Svg;
+  if (name == ".pdf") return PictureFormat::Pdf;
   throw Error(ErrorCode::Usage,
               "'" + extension + "' is no extension of a picture; known are .png, .svg and .pdf");
 }

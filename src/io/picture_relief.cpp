@@ -1,16 +1,14 @@
 // Shaded relief.
 //
 // 1. Colour by height: a ramp of quiet map colours between the 0.2 and 99.8 % quantiles of the vertices'
-// heights, so
-//    that one stray point does not take the colours from all others. Ground that lies wholly under zero is
-//    sea bed.
+//    heights, so that one stray point does not take the colours from all others. Ground that lies wholly
+//    under zero is sea bed.
 // 2. Light: Lambert's law, one value a triangle, from the north-west (azimuth 315, altitude 45 degrees),
-// divided by
-//    that of flat ground. Shade darkens and cools the colour, light bleaches it.
+//    divided by that of flat ground. Shade darkens and cools the colour, light bleaches it.
 // 3. Heights are exaggerated for the light only, until the mean slope is that of hills (1 in 4): plains show
-// their form.
+//    their form.
 // 4. Each pixel is the mean of 2 x 2 samples; a sample belongs to the triangle that holds it (edge
-// functions).
+//    functions).
 #include "io/picture_relief.hpp"
 
 #include <algorithm>

@@ -1,12 +1,11 @@
 // From the coordinates of one source to those of the survey.
 //
 // 1. Unless both CRSs have a vertical part, both are reduced to their horizontal parts, and heights change
-// unit only.
+//    unit only.
 // 2. CRSs that differ in name or axis order only are the same: nothing is transformed, coordinates keep every
-// bit.
+//    bit.
 // 3. PROJ is first asked for a transformation that knows both datums. Where there is none (a datum is
-// unknown) the
-//    one that takes them for the same is used, and a note says so.
+//    unknown) the one that takes them for the same is used, and a note says so.
 // PROJ chooses among transformations for each point by its position alone, so the order of points has no
 // influence.
 #include "io/plane_transform.hpp"

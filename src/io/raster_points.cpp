@@ -213,6 +213,7 @@ class RasterPoints : public SourceReader {
     run.result.points_read += valid_.size();
     run.result.nodata_skipped +=
         static_cast<std::size_t>(std::count(cells_.begin(), cells_.end(), Cell::Void));
+    if (run.options.admit) run.options.admit(points.xy.size());
   }
 
   GDALDatasetUniquePtr dataset_;

@@ -1,11 +1,9 @@
 // A TIN from the layers of a GeoPackage.
 //
 // 1. Vertices: the layer "vertices" in the order of its ids, if it is there; else the triangles' corners in
-// order of
-//    first appearance.
+//    order of first appearance.
 // 2. Corners are found by their exact coordinates: sorted once, then binary search. A corner whose height
-// differs from
-//    the vertex's is no part of this surface.
+//    differs from the vertex's is no part of this surface.
 // 3. Constraint edges: the rows of "edges" with a kind, else the segments of "breaklines".
 #include "base/release.hpp"
 #include "io/antimeridian.hpp"

@@ -103,8 +103,7 @@ class LandXmlReader {
   // The numbers of an element's text; its `row` names it in errors.
   [[nodiscard]] std::vector<double> numbers(CPLXMLNode* node, const char* what, std::size_t row) const {
     const std::string text = attribute(node, "");
-    const std::string where = path_ + " " + what + " " + std::to_string(row);
-    TextScanner scanner(text, where);
+    TextScanner scanner(text, path_);
     std::vector<double> values;
     for (std::string_view word = scanner.word_anywhere(); !word.empty(); word = scanner.word_anywhere()) {
       const std::optional<double> value = parse_number(word);

@@ -2,8 +2,7 @@
 // endianness.
 //
 // 1. Parse the header. A record has a least size, so a count that the rest of the file cannot hold is refused
-// before
-//    anything is allocated; the same for lists.
+//    before anything is allocated; the same for lists.
 // 2. Read every element's records in turn; every number fits a double exactly. What is not known is skipped.
 // 3. When all is read, check that faces and edges name vertices that exist (they may come first).
 #include "io/file_content.hpp"

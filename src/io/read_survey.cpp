@@ -2,8 +2,7 @@
 //
 // 1. All sources are opened, so that what is missing is known before the first long read.
 // 2. The frame of the survey is the target CRS, else the first CRS that a source declares. Sources without
-// CRS are
-//    taken to be in that first one.
+//    CRS are taken to be in that first one.
 // 3. Each source is read through its transform into the survey, points first.
 // 4. Options that no source could use are errors; so are an empty survey and degrees out of range.
 // 5. Heights are brought from the ellipsoid to a geoid or back, where that is asked for.

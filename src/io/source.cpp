@@ -1,27 +1,25 @@
 // Source names as users and QGIS write them.
+#include "base/lower_case.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/io/source.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
 namespace thalweg {
 
 SourceSpec parse_source(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string small = lower(text);
   constexpr std::string_view kLayer = "|layername=";
   for (const std::string_view other :
        {"|layerid=", "|subset=", "|geometrytype=", "|uniquegeometrytype=", "|option:"}) {
-    if (lower.find(other) == std::string::npos) continue;
+    if (small.find(other) == std::string::npos) continue;
     throw Error(ErrorCode::Usage,
                 "source \"" + std::string(text) + "\": " + std::string(other) +
                     " is not supported; name a layer with |layername=NAME, filter with --where");
   }
-  const std::size_t bar = lower.find(kLayer);
+  const std::size_t bar = small.find(kLayer);
   SourceSpec spec;
   spec.path = text.substr(0, bar);
   if (bar != std::string::npos) spec.layer = text.substr(bar + kLayer.size());

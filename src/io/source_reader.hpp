@@ -75,6 +75,17 @@ class SourceReader {
   virtual void read(ReadContext& run, PlaneTransform& transform) = 0;
 
  protected:
+  /// Counts a line that was read, and its vertices if it has two: else it is none, and false.
+  static bool take_line(ReadContext& run, const SurveyLine& line) {
+    ++run.result.breaklines_read;
+    if (line.xy.size() < 2) return false;
+    run.result.breakline_vertices += line.xy.size();
+    return true;
+  }
+  void note_short_lines(ReadContext& run, std::size_t count) const {
+    if (count == 0) return;
+    run.note(name() + ": " + std::to_string(count) + " lines of fewer than two vertices were skipped");
+  }
   void set_layer(const std::string& name) { spec_.layer = name; }
   void set_reference(const OGRSpatialReference& reference) { reference_ = reference; }
   void set_vertical_unit(double metres_per_unit) { vertical_metres_per_unit_ = metres_per_unit; }

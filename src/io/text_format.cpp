@@ -1,17 +1,16 @@
 // How the rows of a text file are to be understood.
 //
 // 1. The first row that is no comment shows the separator: of ; tab , the first that stands outside of
-// quotes, else
-//    blanks. Numbers between which both tabs and blanks stand are separated by runs of them.
+//    quotes, else blanks. Numbers between which both tabs and blanks stand are separated by runs of them.
 // 2. It is a header if it holds no number, or names x and y. If it holds numbers, the last comment before it
-// is the
-//    header if it has as many fields and names x and y (numpy, CloudCompare).
+//    is the header if it has as many fields and names x and y (numpy, CloudCompare).
 // 3. Decimals are written with a comma if the first number that has any is, and ; or tabs separate.
 // 4. Columns by name. If x and y are not both named, the first three columns are x, y, z, unless a name that
-// is
-//    known stands in another place than it says.
+//    is known stands in another place than it says.
 // 5. Positions in text (UTM, MGRS) have columns of their own names; z is then named, or follows them.
 #include "io/text_format.hpp"
+
+#include "base/lower_case.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -56,12 +55,6 @@ std::string_view unquote(std::string_view field) {
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
     field = trim(field.substr(1, field.size() - 2));
   return field;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
 }
 
 bool stands_outside_quotes(std::string_view row, char separator) {

@@ -6,6 +6,7 @@
 //    is one.
 #include "io/text_points.hpp"
 
+#include "base/lower_case.hpp"
 #include "base/parallel.hpp"
 #include "io/gdal_session.hpp"
 #include "io/point_collector.hpp"
@@ -22,7 +23,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,9 +34,7 @@ namespace thalweg {
 namespace {
 
 bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char a, char b) {
-           return a == static_cast<char>(std::tolower(static_cast<unsigned char>(b)));
-         });
+  return lower(text).ends_with(end);
 }
 
 std::string without_gz(const std::string& path) {

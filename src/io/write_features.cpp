@@ -1,5 +1,6 @@
 // Layers of plain features in a GeoPackage, by GDAL; as write_layers.cpp does it: one transaction, no
 // journal, a fixed date of change, and what GDAL said while closing decides whether the file is whole.
+#include "base/lower_case.hpp"
 #include "io/gdal_session.hpp"
 #include "io/spatial_reference.hpp"
 
@@ -10,8 +11,6 @@
 #include <ogrsf_frmts.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -146,10 +145,7 @@ class FeatureWriter {
 }  // namespace
 
 void check_features_path(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".gpkg") {
+  if (extension_of(path) != ".gpkg") {
     throw Error(ErrorCode::Usage,
                 path + ": several layers are written, which takes a GeoPackage: name it .gpkg");
   }

@@ -1,8 +1,7 @@
 // Vector layers of a TIN, by GDAL: all of them in a GeoPackage, or one in a format that holds one.
 //
 // 1. One transaction; SQLite's own journal and syncs are off, because the file is a temporary one that is
-// flushed as a
-//    whole before it gets its name.
+//    flushed as a whole before it gets its name.
 // 2. Features and geometries are made once a layer and refilled.
 // 3. GDAL's close returns nothing: what it said while closing decides whether the file is whole.
 // 4. The spatial index is filled at once when all features are there (spatial_index.cpp).
@@ -19,6 +18,8 @@
 #include "io/spatial_index.hpp"
 #include "io/spatial_reference.hpp"
 #include "io/tin_format.hpp"
+
+#include <thalweg/mesh/conflict_name.hpp>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -41,22 +42,6 @@ struct Field {
   const char* name;
   OGRFieldType type;
 };
-
-const char* conflict_word(Conflict::Kind kind) {
-  switch (kind) {
-    case Conflict::Kind::DuplicatePoint:
-      return "duplicate point";
-    case Conflict::Kind::PointOnLine:
-      return "point on line";
-    case Conflict::Kind::LineVertex:
-      return "line vertex";
-    case Conflict::Kind::Crossing:
-      return "crossing";
-    case Conflict::Kind::Lake:
-      return "lake";
-  }
-  return "unknown";
-}
 
 enum class Transactions : std::uint8_t { One, None };
 
@@ -285,7 +270,7 @@ class LayerWriter {
       point->setX(xy.x);
       point->setY(xy.y);
       point->setZ(conflict.z_used);
-      feature_->SetField(0, conflict_word(conflict.kind));
+      feature_->SetField(0, std::string(conflict_name(conflict.kind)).c_str());
       feature_->SetField(1, conflict.z_a);
       feature_->SetField(2, conflict.z_b);
       feature_->SetField(3, conflict.z_used);

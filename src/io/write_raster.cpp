@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -120,15 +121,22 @@ bool tells_place(GDALDataset* dataset, const std::string& path, const RasterView
   return is_same_unit(unit, view.metres_per_unit);
 }
 
-int report_progress(double fraction, const char*, void* progress) {
-  auto& ours = *static_cast<Progress*>(progress);
-  try {
-    ours.advance(fraction);
-  } catch (const Error&) {
-    return FALSE;  // GDAL is C: the error is thrown again when it has returned
+/// Progress for GDAL, through which no exception may pass: what a report throws waits until it has returned.
+struct GdalProgress {
+  Progress& progress;
+  std::exception_ptr thrown;
+
+  static int report(double fraction, const char*, void* self) {
+    auto& ours = *static_cast<GdalProgress*>(self);
+    if (ours.thrown) return FALSE;
+    try {
+      ours.progress.advance(fraction);
+    } catch (...) {
+      ours.thrown = std::current_exception();
+    }
+    return ours.thrown ? FALSE : TRUE;
   }
-  return TRUE;
-}
+};
 
 }  // namespace
 
@@ -158,9 +166,10 @@ void write_raster(const std::string& path, const RasterView& view, const WriteOp
   const auto make = [&](bool sidecar) {
     const CPLConfigOptionSetter choice("GDAL_PAM_ENABLED", sidecar ? "YES" : "NO", false);
     auto folder = std::make_unique<MemoryFolder>(path);
+    GdalProgress reports{progress, {}};
     GDALDatasetUniquePtr copy(driver->CreateCopy(folder->path().c_str(), dataset.get(), FALSE,
-                                                 creation.dataset.List(), report_progress, &progress));
-    progress.check();
+                                                 creation.dataset.List(), GdalProgress::report, &reports));
+    if (reports.thrown) std::rethrow_exception(reports.thrown);
     if (!copy) fail(path, session);
     copy.reset();
     if (session.failed()) fail(path, session);

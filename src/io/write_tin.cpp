@@ -3,6 +3,7 @@
 // A sidecar NAME.prj belongs to the output where the format cannot hold the CRS. If the TIN has no CRS, a
 // NAME.prj that lies there already would be taken for its own: it has to go. One that says the same, as that
 // of NAME in another format does, stays.
+#include "base/lower_case.hpp"
 #include "io/file_content.hpp"
 #include "io/file_writer.hpp"
 #include "io/gdal_session.hpp"
@@ -15,19 +16,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 
 namespace thalweg {
 
 namespace {
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string list_formats() {
   std::string list;
@@ -39,7 +32,7 @@ std::string list_formats() {
 }
 
 const TinFormat& choose_format(const std::string& path, const std::string& name) {
-  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  const std::string extension = extension_of(path);
   for (const TinFormat& format : tin_format_table()) {
     const std::vector<std::string>& extensions = format.info.extensions;
     const bool same = name.empty()

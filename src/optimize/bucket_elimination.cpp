@@ -2,9 +2,8 @@
 //
 // 1. Each term goes to the bucket of the variable of its scope that is eliminated first.
 // 2. In order: a table over the scope of v, for both labels of v, sums the bucket's terms and messages; the
-// smaller of
-//    the two entries is the message, a term over v's scope, and goes to the bucket of its first variable. One
-//    bit an entry remembers which it was.
+//    smaller of the two entries is the message, a term over v's scope, and goes to the bucket of its first
+//    variable. One bit an entry remembers which it was.
 // 3. Backwards: each variable reads its bit under the labels of its scope.
 // A message's table has the bit of its first variable lowest. Entries of the receiving table find theirs by
 // an array of projections, built by doubling. Based on: Bertele, Brioschi, Nonserial dynamic programming,

@@ -6,8 +6,7 @@
 //    triangulations with the same front are compared as labels are in label_reduction.cpp: one goes if
 //    another is no worse whatever lies across each open side, of all that may.
 // 2. Pits: what only the one that goes joins may save a pit for each plateau that is joined, no more, for
-// each
-//    names one outlet (face_network.cpp).
+//    each names one outlet (face_network.cpp).
 // 3. Fronts are taken in the order of their numbers, so each has all that leads to it; each partial
 //    triangulation that stays goes on along each arc. What stays at the empty front are the labels.
 // Exact for sums of terms of triangles and of neighbouring triangles, as the program over the edges of a

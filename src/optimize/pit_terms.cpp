@@ -8,8 +8,7 @@
 //    group is claimed as in 1. A component that spans groups leaves each of them, and is counted in none, so
 //    the sum is at most the number of pits; it is that number if no pit spans groups.
 // 3. The caller solves, and hands the labels in: groups that a pit spans are united, until none is. Labels
-// that
-//    are best with terms that count too little, and for them exactly, are best.
+//    that are best with terms that count too little, and for them exactly, are best.
 #include "optimize/pit_terms.hpp"
 
 #include "base/union_find.hpp"

@@ -5,14 +5,13 @@
 // its vertices is on the rim, one of its fixed edges is a lake's, or a fixed edge leads to a lower vertex.
 //
 // Each quadrilateral offers at most one helpful diagonal. Let m be a lowest corner, m' the corner across, n
-// and n' the others; all four sides are fixed. (a) nn' never helps. If n is higher than m, n is in ROOT; if
-// it is as high, it is in m's plateau. So nn' joins
-//     ROOT to ROOT, or m's plateau to itself, or leads from m's plateau to n' in ROOT, which is higher. A
-//     lower neighbour gained by a vertex in ROOT is of no use.
+// and n' the others; all four sides are fixed.
+// (a) nn' never helps. If n is higher than m, n is in ROOT; if it is as high, it is in m's plateau. So nn'
+//     joins ROOT to ROOT, or m's plateau to itself, or leads from m's plateau to n' in ROOT, which is higher.
+//     A lower neighbour gained by a vertex in ROOT is of no use.
 // (b) mm' gives the plateau of m' a lower neighbour if m' is higher, and unites the plateaus of m and m' if
-// not. It
-//     helps only if m' is not in ROOT, in the first case, and if the plateaus differ and are not both in
-//     ROOT, in the second. With two adjacent lowest corners m and n, (a) holds for both diagonals: m' is
+//     not. It helps only if m' is not in ROOT, in the first case, and if the plateaus differ and are not both
+//     in ROOT, in the second. With two adjacent lowest corners m and n, (a) holds for both diagonals: m' is
 //     beside n, so in ROOT if higher, in the same plateau if not. With two opposite lowest corners mm' is one
 //     and the same.
 //

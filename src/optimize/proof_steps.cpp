@@ -1,8 +1,7 @@
 // The way of the solver (decomposition.cpp), step by step, with what it finds out written down.
 //
 // 1. Bridges of the links, each a cut of its own; then all labels that the reduction fixes. The verifier
-// finds
-//    the order itself.
+//    finds the order itself.
 // 2. Each piece: without weights a spanning forest; else the cuts that its solution needed, and the order of
 //    elimination. A cut that the solver wrote as a chain of clauses is put together again: the verifier makes
 //    the same chain of it, its new variables numbered on.

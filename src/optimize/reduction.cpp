@@ -1,17 +1,15 @@
 // Dead ends, contraction, bridges.
 //
 // 1. Let D(q) = cost with label 1 less that with label 0; it depends on the neighbours' labels. Over all
-// labels that
-//    they may still have, D lies between lo(q) and hi(q). If lo >= 0, label 0 is never worse; if hi <= 0,
-//    label 1. Such a label may be fixed, at once if it is the helpful one of its link or there is no link: a
-//    link more never disconnects. The unhelpful label may be fixed if fixed links connect the ends of its
-//    link already: whatever the others are, the link is not needed. Desmet et al., The dead-end elimination
-//    theorem, 1992, in an ordered group.
+//    labels that they may still have, D lies between lo(q) and hi(q). If lo >= 0, label 0 is never worse; if
+//    hi <= 0, label 1. Such a label may be fixed, at once if it is the helpful one of its link or there is no
+//    link: a link more never disconnects. The unhelpful label may be fixed if fixed links connect the ends of
+//    its link already: whatever the others are, the link is not needed. Desmet et al., The dead-end
+//    elimination theorem, 1992, in an ordered group.
 // 2. Fixing narrows the intervals of the neighbours, which go on a work list.
 // 3. Links that are fixed to be there are contracted; those that became loops are free. Among the rest, a
-// bridge of
-//    the graph of links that may still be there has to be there. Its label is fixed, and so on until nothing
-//    moves.
+//    bridge of the graph of links that may still be there has to be there. Its label is fixed, and so on
+//    until nothing moves.
 // Every condition, once true, stays true while labels are fixed, so the final set is the same in any order.
 //
 // Blocks of variables are first reduced by themselves, each by one thread, as if all labels outside were

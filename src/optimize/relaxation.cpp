@@ -1,14 +1,12 @@
 // Variable splitting.
 //
 // 1. A set of variables is chosen without which the problem is narrow. Each of them is replaced, in every
-// term that has
-//    it, by a copy of its own. If copies had to agree, nothing would have changed; as they need not, the
-//    minimum, found by dynamic programming, is a bound. Cuts around nodes are kept, all others are left out,
-//    which also only lowers it.
+//    term that has it, by a copy of its own. If copies had to agree, nothing would have changed; as they need
+//    not, the minimum, found by dynamic programming, is a bound. Cuts around nodes are kept, all others are
+//    left out, which also only lowers it.
 // 2. The copies share the variable's cost. Any shares that add up to it give a bound; they are moved from
-// copies that
-//    have label 0 to copies that have label 1, by Polyak's step towards the known upper value, halved after
-//    rounds without gain. Shares are integers of the first level and add up exactly.
+//    copies that have label 0 to copies that have label 1, by Polyak's step towards the known upper value,
+//    halved after rounds without gain. Shares are integers of the first level and add up exactly.
 // Based on: Guignard, Kim, Lagrangean decomposition, 1987; Held, Wolfe, Crowder, Validation of subgradient
 // optimization, 1974; for the splitting Choi, Chavira, Darwiche, Node splitting, 2007.
 #include "optimize/relaxation.hpp"

@@ -1,22 +1,19 @@
 // Roof duality.
 //
 // 1. The cost is written as a constant plus non-negative terms a l and a l m of literals l, m (x or 1 - x). A
-// term a l m
-//    becomes arcs l -> not m and m -> not l of capacity a, "if l is true, m is false or a is paid"; a term a
-//    l is a l TRUE, with TRUE the source and its negation the sink. Half the maximum flow can be paid in no
-//    labelling less.
+//    term a l m becomes arcs l -> not m and m -> not l of capacity a, "if l is true, m is false or a is
+//    paid"; a term a l is a l TRUE, with TRUE the source and its negation the sink. Half the maximum flow can
+//    be paid in no labelling less.
 // 2. With l -> m read as (not m) -> (not l), a flow has a mirror image; half of both together is a maximum
-// flow that is
-//    its own image. What its residual arcs still charge is again a sum of non-negative terms. Let S be the
-//    literals that residual arcs reach from the source. They are consistent, and making all of S true annuls
-//    every term that touches S: no arc leaves S. If some l in S is false, there is a first false literal on a
-//    residual path from the source to l, and a positive term is paid. So every optimum has S.
+//    flow that is its own image. What its residual arcs still charge is again a sum of non-negative terms.
+//    Let S be the literals that residual arcs reach from the source. They are consistent, and making all of S
+//    true annuls every term that touches S: no arc leaves S. If some l in S is false, there is a first false
+//    literal on a residual path from the source to l, and a positive term is paid. So every optimum has S.
 // 3. A label that takes away a link may be forbidden. Let B be the literals of S that do so. Those in S that
-// reach B are
-//    given up; of the rest, those that residual arcs reach from the source without entering what was given
-//    up, form a set S' that no arc leaves either. Whatever labelling is feasible, making S' true only adds
-//    links or leaves them alone, so 2 holds with S' in place of S, and every optimum of the problem with
-//    links has S'.
+//    reach B are given up; of the rest, those that residual arcs reach from the source without entering what
+//    was given up, form a set S' that no arc leaves either. Whatever labelling is feasible, making S' true
+//    only adds links or leaves them alone, so 2 holds with S' in place of S, and every optimum of the problem
+//    with links has S'.
 // Based on: Hammer, Hansen, Simeone, Roof duality, 1984; Boros, Hammer, Pseudo-Boolean optimization, 2002.
 #include "optimize/roof_duality.hpp"
 

@@ -3,8 +3,7 @@
 // 1. Dead-end elimination, contraction, bridges; pieces; dynamic programming or a spanning forest for each
 //    (decomposition.cpp).
 // 2. A piece that is too wide: labels that a maximum flow proves (roof_duality.cpp); if there are any, what
-// is left is a
-//    smaller problem, back to 1. If there are none, a labelling and a bound (wide.cpp).
+//    is left is a smaller problem, back to 1. If there are none, a labelling and a bound (wide.cpp).
 #include "optimize/solver.hpp"
 
 #include "optimize/piece.hpp"

@@ -4,9 +4,8 @@
 //    (relaxation.cpp), and those known before, the ones that cost least; where labels fail a cut, all links
 //    of that cut are chosen.
 // 2. Improve: keep the labels of a set of variables without which the problem is narrow, and find the best
-// labels of
-//    all others together, exactly. The variables that were kept least often are kept next, so that each
-//    becomes free. Until several sets in a row bring nothing.
+//    labels of all others together, exactly. The variables that were kept least often are kept next, so that
+//    each becomes free. Until several sets in a row bring nothing.
 // 3. Raise the bound of the relaxation towards the value reached.
 // A third of the effort goes to 2, the rest to 3; tables are narrower than allowed where that buys enough
 // rounds. Once value and bound meet, nothing more is done.

@@ -4,8 +4,8 @@
 //    are met by following the gaps of the view from u through the faces, cut at each vertex (as in
 //    sights.cpp), nearest first or, where 5 holds, as they come. Edges at u that block part the ground around
 //    it into fans, each searched alone: no valid triangle at u has such an edge inside.
-// 2. Let t be a valid triangle at u with order <= k and disc D. Of the vertices x in D that u sees, many must
-//    count:
+// 2. Let t be a valid triangle at u with order <= k and disc D. Of the vertices x in D that u sees, many
+//    must count:
 //    a. Visible. Say x lies in the fan of t, less than half a turn from it. Then x counts under Pathcon, for
 //       the segments xu and those of t leave u through one piece of the disc, and under SeesTriang and
 //       SeesVtx: beside u, x sees points of the side of t beyond which it lies, and it sees u.

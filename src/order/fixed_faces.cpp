@@ -139,23 +139,6 @@ std::vector<OrderTriangle> keep_on_surface(const Tin& surface, std::vector<Order
   return triangles;
 }
 
-std::vector<VertexId> vertices_inside(const FixedFaces& faces, std::size_t face) {
-  std::vector<VertexId> all, at_fixed;
-  for (const std::uint32_t t : faces.faces.row(face)) {
-    for (const std::uint32_t side : faces.sides[t]) {
-      const CandidateEdge& edge = faces.edges[side / 2];
-      for (const VertexId v : {edge.a, edge.b}) (edge.free ? all : at_fixed).push_back(v);
-    }
-  }
-  for (auto* list : {&all, &at_fixed}) {
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
-  std::vector<VertexId> inside;
-  std::set_difference(all.begin(), all.end(), at_fixed.begin(), at_fixed.end(), std::back_inserter(inside));
-  return inside;
-}
-
 std::optional<std::int64_t> find_least_sum(const FixedFaces& faces, std::size_t face,
                                            std::span<const std::int64_t> weights, std::size_t work_limit) {
   const auto graph = find_fronts(faces, face, {.work_limit = work_limit});

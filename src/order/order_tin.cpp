@@ -2,9 +2,9 @@
 //
 // 1. Triangles of the constrained Delaunay triangulation of the TIN's vertices and constraint edges: no path
 //    inside its disc joins such a triangle to a vertex there (Lee and Lin, Generalized Delaunay triangulation
-//    for planar graphs, 1986). So Pathcon counts none, and the other definitions but Std count no more
-//    (Lemma 1). Under Std over a convex ground the same holds with the Delaunay triangulation of the vertices
-//    alone. Flips find it (delaunay_flips.cpp): a triangle that is never flipped is one of it, order 0.
+//    for planar graphs, 1986). So Pathcon counts none, and the other definitions but Std count no more (Lemma
+//    1). Under Std over a convex ground the same holds with the Delaunay triangulation of the vertices alone.
+//    Flips find it (delaunay_flips.cpp): a triangle that is never flipped is one of it, order 0.
 // 2. Triangles abc and bad that one flip turned into adc and dbc of that triangulation: d lies in the disc of
 //    abc, sees c across the quadrilateral, and a and b along its sides, and dab holds no other vertex, so
 //    every definition counts it. No other vertex counts unless a neighbour of d lies in the disc too
@@ -13,8 +13,7 @@
 //    is known beforehand: under Std over a polygon, and where flips take too long. What floods need is the
 //    topology of the TIN, not that it is Delaunay.
 // 4. Under Std among constraint edges many discs at the hull and at long edges hold much of the terrain.
-// There
-//    vertices are counted in rows (vertex_rows.cpp), without a look at each.
+//    There vertices are counted in rows (vertex_rows.cpp), without a look at each.
 #include "base/parallel.hpp"
 #include "order/delaunay_flips.hpp"
 #include "order/vertex_rows.hpp"

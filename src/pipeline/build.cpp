@@ -40,7 +40,7 @@ namespace {
 /// few.
 constexpr double kGeographicResolutionM = 0x1p-20;
 
-std::vector<std::uint8_t> sources_of(const Ground& ground) {
+std::vector<std::uint8_t> origin_kinds(const Ground& ground) {
   std::vector<std::uint8_t> sources(ground.origins.size());
   std::transform(ground.origins.begin(), ground.origins.end(), sources.begin(),
                  [](const VertexOrigin& origin) { return static_cast<std::uint8_t>(origin.kind); });
@@ -132,10 +132,13 @@ void note_lost_edges(const Terrain& terrain, Report& report) {
 
 void describe_input(const ReadResult& read, const Ground& ground, Report& report) {
   report.input.points_read = read.points_read;
+  report.input.outside_bbox = read.outside_bbox;
   report.input.nodata_skipped = read.nodata_skipped;
   report.input.nodata_holes_bridged = read.nodata_holes;
+  report.input.nodata_cells_bridged = read.bridged_cells;
   report.input.breaklines_read = read.breaklines_read;
   report.input.breakline_vertices = read.breakline_vertices;
+  report.input.lines_outside_bbox = read.lines_outside_bbox;
   report.input.duplicates_merged = ground.duplicates_merged;
   report.input.outside_boundary = ground.outside_boundary;
   report.input.crossings = ground.crossings;
@@ -146,10 +149,6 @@ void describe_input(const ReadResult& read, const Ground& ground, Report& report
       std::count_if(ground.origins.begin(), ground.origins.end(),
                     [](const VertexOrigin& origin) { return origin.kind == VertexOrigin::Kind::Point; }));
 }
-
-}  // namespace
-
-namespace {
 
 void check_changes(const BuildConfig& config, const OutputConfig& output) {
   check_condition(config.condition, config.labelling, output);
@@ -216,7 +215,7 @@ BuiltTin run_job(const BuildConfig& config, const MemorySource& memory, const Ou
   describe_input(read, ground, report);
   report.conflicts = conflicts_of(std::move(ground.conflicts), plane);
   Terrain terrain{.written = written_of(ground, survey, plane),
-                  .vertex_source = sources_of(ground),
+                  .vertex_source = origin_kinds(ground),
                   .number = std::move(ground.number)};
   if (plane.projected()) terrain.continuous = plane.to_lonlat(terrain.written);
   terrain.mode = ground.mode;

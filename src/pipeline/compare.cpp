@@ -1,9 +1,9 @@
 // Two TINs of the same vertices, side by side.
 //
 // 1. The vertices of both are sorted by position; they must be the same to the last bit. The second TIN gets
-// the
-//    ids of the first, so that formats that number vertices anew can be compared, too.
+//    the ids of the first, so that formats that number vertices anew can be compared, too.
 // 2. An edge changed if the other TIN has no edge between the same vertices.
+#include "base/lower_case.hpp"
 #include "pipeline/loaded_tin.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -133,9 +133,9 @@ void view_comparison(const CompareConfig& config, Progress& progress) {
                             .title = "After: " + std::filesystem::path(config.after).filename().string(),
                             .target = config.output,
                             .width_px = config.width_px};
-  draw_comparison(path, std::filesystem::path(config.output).extension().string(), {scene, result}, progress);
-  outputs.commit();
+  draw_comparison(path, extension_of(config.output), {scene, result}, progress);
   progress.advance(1);
+  outputs.commit();
 }
 
 }  // namespace thalweg

@@ -5,6 +5,7 @@
 // 2. Mesh and layers: written as they are. Orders follow their triangles, which a Tin sorts.
 // 3. Raster: strips of rows; each cell centre goes to the plane and is sampled there.
 // 4. Contours: traced in the plane, written in the TIN's coordinates. Profiles likewise.
+#include "base/lower_case.hpp"
 #include "base/printable.hpp"
 #include "pipeline/loaded_tin.hpp"
 #include "pipeline/memory_estimate.hpp"
@@ -20,10 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 #include <utility>
 
 namespace thalweg {
@@ -78,13 +76,22 @@ void write_mesh(const Job& job) {
 }
 
 // Doubles that should be whole numbers of cells are so up to rounding.
-std::size_t cell_count(double length, double cell) {
+double cell_count(double length, double cell) {
   constexpr double kSlack = 1e-6;
-  return static_cast<std::size_t>(std::max(1.0, std::floor(length / cell + kSlack)));
+  return std::max(1.0, std::floor(length / cell + kSlack));
+}
+
+RasterGrid grid_over(const Box2& box, double cell) {
+  constexpr double kMostCells = 2e9;  // of a side too, which GDAL counts by int
+  const double columns = cell_count(box.width(), cell), rows = cell_count(box.height(), cell);
+  if (!(columns * rows < kMostCells)) {
+    throw Error(ErrorCode::SizeLimit,
+                "the raster would have more than 2e9 cells; choose a larger --resolution");
+  }
+  return {box.x_min, box.y_max, cell, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows)};
 }
 
 RasterGrid make_grid(const RasterConfig& raster, const Source& source, std::vector<std::string>& notes) {
-  constexpr double kMostCells = 2e9;
   if (!(raster.resolution > 0) || !std::isfinite(raster.resolution)) {
     throw Error(ErrorCode::Usage,
                 "a raster needs the side of its cells, in units of the TIN's coordinates: --resolution SIZE");
@@ -104,12 +111,7 @@ RasterGrid make_grid(const RasterConfig& raster, const Source& source, std::vect
     }
     box = {box.x_min - cell / 2, box.y_min - cell / 2, box.x_max + cell / 2, box.y_max + cell / 2};
   }
-  if (!(box.width() / cell * (box.height() / cell) < kMostCells)) {
-    throw Error(ErrorCode::SizeLimit,
-                "the raster would have more than 2e9 cells; choose a larger --resolution");
-  }
-  const RasterGrid grid{box.x_min, box.y_max, cell, cell_count(box.width(), cell),
-                        cell_count(box.height(), cell)};
+  const RasterGrid grid = grid_over(box, cell);
   const double east = box.width() - static_cast<double>(grid.columns) * cell,
                south = box.height() - static_cast<double>(grid.rows) * cell;
   if (raster.extent && std::max(std::abs(east), std::abs(south)) > 1e-6 * cell) {
@@ -256,9 +258,7 @@ ConvertResult::Kind kind_of(const ConvertConfig& config) {
 
 /// GeoJSON cannot say that the CRS is unknown.
 void note_false_crs(const ConvertConfig& config, const CrsInfo& crs, ConvertResult& result) {
-  std::string format =
-      config.format.empty() ? std::filesystem::path(config.output).extension().string() : config.format;
-  std::ranges::transform(format, format.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string format = config.format.empty() ? extension_of(config.output) : lower(config.format);
   if (crs.known || format.find("json") == std::string::npos) return;
   result.notes.push_back(config.output +
                          ": the CRS is unknown, but whoever reads GeoJSON takes it for longitude and "
@@ -312,7 +312,7 @@ std::string to_json(const ConvertResult& result) {
     json["profile"] = {{"lines", result.lines}, {"rows", result.profile_rows}};
   }
   json["notes"] = result.notes;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const ConvertResult& result) {

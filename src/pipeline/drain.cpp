@@ -1,8 +1,7 @@
 // Hydrology of a TIN file.
 //
 // 1. Read, project, refuse a TIN that is not valid. Outlets go to the nearest corner of the triangle that
-// holds
-//    them.
+//    holds them.
 // 2. Condition heights if asked to. Find the flow once; pits, network, catchments and paths are read off it.
 // 3. Write all layers aside, then the report; rename together.
 #include "base/printable.hpp"

@@ -2,13 +2,14 @@
 // pits is what filling them would leave.
 #include "pipeline/flow_attributes.hpp"
 
+#include "base/lower_case.hpp"
+
 #include <thalweg/base/error.hpp>
 #include <thalweg/terrain/condition.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <utility>
@@ -108,7 +109,7 @@ Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progre
 }  // namespace
 
 void check_mesh_path(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = extension_of(path);
   if (extension == ".nc" || extension == ".gpkg") return check_write_options(path, {});
   throw Error(ErrorCode::Usage,
               "--mesh writes .nc (UGRID) or .gpkg, which hold values of edges, not '" + path + "'");

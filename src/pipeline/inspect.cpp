@@ -1,4 +1,5 @@
 // What a TIN file is: measured, checked, drawn.
+#include "base/lower_case.hpp"
 #include "base/printable.hpp"
 #include "pipeline/digest.hpp"
 #include "pipeline/lengths.hpp"
@@ -200,9 +201,9 @@ void view_tin(const ViewConfig& config, Progress& progress) {
                            .title = std::filesystem::path(config.input).filename().string(),
                            .target = config.output,
                            .width_px = config.width_px};
-  draw_picture(path, std::filesystem::path(config.output).extension().string(), scene, progress);
-  outputs.commit();
+  draw_picture(path, extension_of(config.output), scene, progress);
   progress.advance(1);
+  outputs.commit();
 }
 
 }  // namespace thalweg

@@ -1,12 +1,13 @@
 // The panels of a triangle's picture.
 #include "pipeline/order_picture.hpp"
 
+#include "base/lower_case.hpp"
+
 #include <thalweg/io/order_picture.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <vector>
 
@@ -96,7 +97,7 @@ void draw_answer(const ConstrainedOrder& orders, const TriangleOrders& answer, c
     panels.push_back(panel_of_fault(answer.validity));
   }
   const bool in_the_way = !valid && !panels[0].marked.empty();
-  draw_order_picture(path, std::filesystem::path(target).extension().string(),
+  draw_order_picture(path, extension_of(target),
                      {.ground = orders.ground(),
                       .mode = orders.mode(),
                       .triangle = triangle,

@@ -280,7 +280,7 @@ std::string to_json(const OrderResult& result) {
   if (result.std_order) json["std_order"] = std_order_json(result);
   if (!result.census.empty()) json["census"] = census_json(result);
   if (!result.not_taken.empty()) json["not_taken"] = result.not_taken;
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const OrderResult& result) {

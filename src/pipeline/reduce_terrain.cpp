@@ -2,8 +2,7 @@
 //
 // 1. Without lonely ones: the ground is triangulated again from those that stay.
 // 2. Simplified: the vertices that `simplify` keeps. Where the outline is not convex it becomes the boundary
-// of
-//    the ground: what lies outside would be triangulated differently with fewer vertices, and paths there
+//    of the ground: what lies outside would be triangulated differently with fewer vertices, and paths there
 //    would mean nothing.
 #include "pipeline/reduce_terrain.hpp"
 

@@ -3,6 +3,7 @@
 #include "pipeline/lengths.hpp"
 #include "pipeline/water_json.hpp"
 
+#include <thalweg/mesh/conflict_name.hpp>
 #include <thalweg/pipeline/report.hpp>
 
 #include <fmt/format.h>
@@ -17,22 +18,6 @@ namespace thalweg {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view conflict_name(Conflict::Kind kind) {
-  switch (kind) {
-    case Conflict::Kind::DuplicatePoint:
-      return "duplicate-point";
-    case Conflict::Kind::PointOnLine:
-      return "point-on-line";
-    case Conflict::Kind::LineVertex:
-      return "line-vertex";
-    case Conflict::Kind::Crossing:
-      return "crossing";
-    case Conflict::Kind::Lake:
-      return "lake";
-  }
-  return "crossing";
-}
 
 Json conflicts_json(const std::vector<Conflict>& conflicts) {
   Json list = Json::array();
@@ -54,10 +39,13 @@ Json input_json(const ReportInput& input) {
           {"points_used", input.points_used},
           {"duplicates_merged", input.duplicates_merged},
           {"outside_boundary", input.outside_boundary},
+          {"outside_bbox", input.outside_bbox},
           {"nodata_skipped", input.nodata_skipped},
           {"nodata_holes_bridged", input.nodata_holes_bridged},
+          {"nodata_cells_bridged", input.nodata_cells_bridged},
           {"breaklines_read", input.breaklines_read},
           {"breakline_vertices", input.breakline_vertices},
+          {"lines_outside_bbox", input.lines_outside_bbox},
           {"crossings", input.crossings},
           {"lakes", input.lakes},
           {"points_in_lakes", input.points_in_lakes},
@@ -187,7 +175,9 @@ std::string to_json(const Report& report) {
       {"simplification", report.simplification ? simplification_json(*report.simplification) : Json(nullptr)},
       {"first_order", report.higher_order ? Json(nullptr) : first_order_json(report.first_order)},
       {"higher_order", report.higher_order ? higher_order_json(*report.higher_order) : Json(nullptr)},
-      {"arithmetic", "each term is rounded once to an integer multiple of 2^-32 of its unit; sums are exact"},
+      {"arithmetic",
+       "each term is rounded once to an integer multiple of 2^-32 of its unit (areas: 2^-22); sums are "
+       "exact"},
       {"criteria", criteria_json(report.criteria)},
       {"pits", {{"delaunay", pits_json(report.pits_delaunay)}, {"result", pits_json(report.pits_result)}}},
       {"consistency", report.consistency ? consistency_pair(*report.consistency) : Json(nullptr)},

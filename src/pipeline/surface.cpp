@@ -6,6 +6,7 @@
 // 3. The outcome gets the ids of the outputs; all files are written aside and renamed together.
 #include "pipeline/surface.hpp"
 
+#include "base/lower_case.hpp"
 #include "base/parallel.hpp"
 #include "base/release.hpp"
 #include "pipeline/choose_diagonals.hpp"
@@ -356,8 +357,7 @@ void draw_result(const Outcome& outcome, const RunContext& run, Progress& progre
                            .flipped = outcome.new_diagonals,
                            .title = std::filesystem::path(run.output.path).filename().string(),
                            .target = run.output.picture_path};
-  draw_picture(run.outputs.picture, std::filesystem::path(run.output.picture_path).extension().string(),
-               scene, progress);
+  draw_picture(run.outputs.picture, extension_of(run.output.picture_path), scene, progress);
 }
 
 }  // namespace

@@ -1,12 +1,10 @@
 // Contours by walking from triangle to triangle.
 //
 // 1. A vertex is high at a height H if z >= H, else low; nothing ties. An edge between a high and a low end
-// is
-//    crossed once, and a triangle has none or two crossed edges: so crossed edges form paths that are closed
-//    or end on the rim.
+//    is crossed once, and a triangle has none or two crossed edges: so crossed edges form paths that are
+//    closed or end on the rim.
 // 2. In a triangle, the path enters by the edge whose halfedge runs from low to high and leaves by the one
-// from
-//    high to low: then high ground is to its right.
+//    from high to low: then high ground is to its right.
 // 3. A crossing lies at a vertex if the high end is at H exactly, else at one place that is computed from the
 //    low end whatever the side it is reached from. Equal neighbours in a path are one point.
 // 4. A crest at exactly H (both sides lower) is walked along twice, there and back. Such pieces run along an

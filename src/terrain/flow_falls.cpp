@@ -1,16 +1,15 @@
 // How triangles fall.
 //
 // 1. Triangles in batches: loops over columns, without branches, give for each side the sign of its fall
-// where
-//    rounding cannot change it, where the line of flow through the middle corner meets the side across, and
-//    for each corner the steeper of its ways down in the triangle. As in the scalar functions, of which these
-//    are copies, all operations are rounded correctly and none is fused, so the bits are the same. Triangles
-//    whose angle at the lowest corner may let water round in a cycle (flow_channels.cpp) are listed.
+//    where rounding cannot change it, where the line of flow through the middle corner meets the side across,
+//    and for each corner the steeper of its ways down in the triangle. As in the scalar functions, of which
+//    these are copies, all operations are rounded correctly and none is fused, so the bits are the same.
+//    Triangles whose angle at the lowest corner may let water round in a cycle (flow_channels.cpp) are
+//    listed.
 // 2. Triangles with a side that is not sure, or level, or ways that are equally steep, are looked at one by
 //    one, by the exact predicate.
 // 3. The steepest way down from each vertex is chosen: an edge, or the line of flow of a triangle over both
-// of
-//    whose sides at the vertex water enters. Ties: the end that is first by (x, y); so the order in which
+//    of whose sides at the vertex water enters. Ties: the end that is first by (x, y); so the order in which
 //    ways are offered does not matter. Where there is none, it is noted if a neighbour is level. Triangles
 //    come by their smallest vertex: each part of them chooses for the vertices that are smallest in it, and
 //    keeps what it has for others until all parts are done.

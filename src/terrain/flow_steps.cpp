@@ -5,8 +5,7 @@
 // 2. Rounding could name something that is not lower where all is level but for the last digits; then the
 //    lowest neighbour is next. So from each vertex the next one is lower, or of smaller rank, and chains end.
 // 3. The rim by itself: runs of level rim edges, and the rim vertices of one boundary pit, are one; each
-// falls
-//    to its lowest neighbour on the rim, or is an outlet.
+//    falls to its lowest neighbour on the rim, or is an outlet.
 #include "base/parallel.hpp"
 #include "base/union_find.hpp"
 #include "terrain/flow_graph.hpp"

@@ -1,8 +1,7 @@
 // Pits before and after, matched by their vertices.
 //
 // 1. A pit's vertices are connected by level edges, all of whose ends are marked as parts of a pit: a walk
-// over
-//    marked vertices of equal height gathers each pit.
+//    over marked vertices of equal height gathers each pit.
 // 2. A pit whose vertices the other TIN does not mark at all is gone, or new.
 #include <thalweg/terrain/pit_changes.hpp>
 #include <thalweg/terrain/pits.hpp>

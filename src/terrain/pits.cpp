@@ -3,9 +3,8 @@
 // 1. Over all triangles, in parallel: mark each vertex that has a lower neighbour, a level one, a higher one,
 //    and that is on the rim.
 // 2. A vertex with higher neighbours alone is a pit by itself. One with level but no lower neighbours may be
-// part of a pit:
-//    walk its plateau through level edges; it is a pit if no vertex of it has a lower neighbour. Each
-//    plateau is walked once.
+//    part of a pit: walk its plateau through level edges; it is a pit if no vertex of it has a lower
+//    neighbour. Each plateau is walked once.
 #include "base/parallel.hpp"
 
 #include <thalweg/terrain/pits.hpp>

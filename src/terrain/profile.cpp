@@ -1,8 +1,7 @@
 // A piece of the line at a time.
 //
 // 1. Triangles whose boxes meet the piece's are looked at: each side that the piece crosses, and each corner
-// on
-//    it, is a place of the profile, with the height of the side there.
+//    on it, is a place of the profile, with the height of the side there.
 // 2. Places are sorted along the piece; its two ends join them where they are on the surface. Two places that
 //    follow each other belong together if both are on one triangle: what lies between them meets no edge.
 #include "terrain/triangle_grid.hpp"

@@ -3,8 +3,7 @@
 // 1. The difference of two planes over a convex polygon is linear: it is cut where it is zero, and each part
 //    is fanned into triangles, over which its integral is the area times the mean of its corners' values.
 // 2. Between two TINs the polygons are the intersections of their triangles: one is clipped by the sides of
-// the
-//    other (Sutherland, Hodgman, Reentrant polygon clipping, 1974).
+//    the other (Sutherland, Hodgman, Reentrant polygon clipping, 1974).
 // 3. Coordinates are taken from a corner of the triangle, so that large ones cost no digits; sums are
 //    compensated (Kahan), in order of triangles, so that nothing depends on threads.
 #include "terrain/triangle_grid.hpp"

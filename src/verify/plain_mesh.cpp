@@ -4,9 +4,9 @@
 // 2. All directed sides are sorted: no two are equal (two triangles on one side of an edge); a side and its
 //    reverse join two triangles.
 // 3. Triangles are filed in a grid. Two triangles of one cell have disjoint interiors exactly if a side of
-// one
-//    of them has the other wholly on its outer side: all six sides are tried. A vertex of the cell may not
-//    lie in the closed triangle but as its corner. Both together say that the triangles tile what they cover.
+//    one of them has the other wholly on its outer side: all six sides are tried. A vertex of the cell may
+//    not lie in the closed triangle but as its corner. Both together say that the triangles tile what they
+//    cover.
 #include "verify/plain_mesh.hpp"
 
 #include "verify/exact.hpp"

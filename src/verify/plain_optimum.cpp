@@ -1,7 +1,6 @@
 // Bounds, one criterion after the other.
 //
-// 1. Every term of every criterion becomes a factor over few quadrilaterals. Costs are vectors, so
-// that
+// 1. Every term of every criterion becomes a factor over few quadrilaterals. Costs are vectors, so that
 //    criteria are compared in the order of their priority. The first component counts broken conditions: a
 //    clause of the pits, a value above that of a largest-value criterion before.
 // 2. Pits come first or are not checked: their fewest number is that of connected plateaus, their least depth

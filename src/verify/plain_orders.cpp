@@ -2,8 +2,7 @@
 //
 // 1. A grid gives the points near the circumcircle; whether one is inside is asked of the exact predicate.
 // 2. A point inside lies beyond exactly one side. What else its definition asks is tried as it is written:
-// each
-//    sight against every constraint edge in the cells that it passes.
+//    each sight against every constraint edge in the cells that it passes.
 // 3. sees-triang: each constraint edge is cut down to the wedge in which p sees the side uv; the ends of its
 //    shadow are rational numbers along uv. p sees the side unless the closed shadows cover all of it. An edge
 //    that runs towards p has a shadow of no length, which covers nothing: what is left open is open.

@@ -12,11 +12,12 @@ namespace thalweg::verify {
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, StepKind>, 7> kSteps = {{{"cut", StepKind::Cut},
-                                                                          {"fix", StepKind::Fix},
-                                                                          {"eliminate", StepKind::Eliminate},
-                                                                          {"forest", StepKind::Forest},
-                                                                          {"conflict", StepKind::Conflict}}};
+constexpr auto kSteps =
+    std::to_array<std::pair<std::string_view, StepKind>>({{"cut", StepKind::Cut},
+                                                          {"fix", StepKind::Fix},
+                                                          {"eliminate", StepKind::Eliminate},
+                                                          {"forest", StepKind::Forest},
+                                                          {"conflict", StepKind::Conflict}});
 
 class Reader {
  public:

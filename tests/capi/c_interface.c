@@ -275,26 +275,34 @@ static void test_optimize(const char* folder) {
 typedef struct {
   int calls;
   const char* cancel_in;
+  int cancel_at; /* this call; 0: none */
 } watcher;
 
 static int watch(const char* phase, double fraction, void* user) {
   watcher* w = user;
   ++w->calls;
   EXPECT(fraction >= 0 && fraction <= 1);
+  if (w->calls == w->cancel_at) return 1;
   return w->cancel_in != NULL && strcmp(phase, w->cancel_in) == 0;
 }
 
 static void test_progress_and_cancel(void) {
   thalweg_job* job = lattice_job();
   thalweg_tin* tin = NULL;
-  watcher w = {0, "optimize"};
+  watcher w = {0, "optimize", 0};
   EXPECT(thalweg_job_set_progress(job, watch, &w) == THALWEG_OK);
   EXPECT(thalweg_job_build(job, &tin) == THALWEG_CANCELLED && tin == NULL);
   EXPECT(w.calls > 3);
   w.cancel_in = NULL;
+  w.calls = 0;
   EXPECT(thalweg_job_build(job, &tin) == THALWEG_OK); /* a wish to stop is for one build */
   thalweg_tin_free(tin);
   tin = NULL;
+  w.cancel_at = w.calls; /* the last word counts */
+  w.calls = 0;
+  EXPECT(thalweg_job_build(job, &tin) == THALWEG_CANCELLED && tin == NULL);
+  EXPECT(w.calls == w.cancel_at);
+  w.cancel_at = 0;
   thalweg_job_cancel(job);
   EXPECT(thalweg_job_build(job, &tin) == THALWEG_CANCELLED);
   EXPECT(thalweg_job_set_progress(job, NULL, NULL) == THALWEG_OK);

@@ -147,6 +147,15 @@ class Package(unittest.TestCase):
         with self.assertRaises(thalweg.ThalwegError) as caught:
             thalweg.build(f"{TINY}/points.csv", progress=lambda phase, fraction: phase == "optimize")
         self.assertEqual(caught.exception.code, "cancelled")
+        calls = len(seen)
+
+        def fail_at_last(phase, fraction):
+            seen.append((phase, fraction))
+            if len(seen) == 2 * calls:
+                raise KeyError(phase)
+
+        with self.assertRaises(KeyError):
+            thalweg.build(f"{TINY}/points.csv", progress=fail_at_last)
 
         def fail(phase, fraction):
             raise KeyError(phase)

@@ -303,6 +303,7 @@ def main():
         bench.algorithm("tintolayers", "more.gpkg", INPUT=tin, OUTPUT=f"{folder}/more.gpkg")
         bench.algorithm("drain", "drain.gpkg", INPUT=tin, OUTPUT=f"{folder}/drain.gpkg", SEED_SPACING=50,
                         REPORT=f"{folder}/drain.json")
+        bench.algorithm("drain", "seedless.gpkg", INPUT=tin, OUTPUT=f"{folder}/seedless.gpkg", SEED_SPACING=0)
         bench.algorithm("profile", "profile.csv", INPUT=tin, LINES=f"{lines}|layername=valleys",
                         OUTPUT=f"{folder}/profile.csv")
         subprocess.run([binary, "convert", tin, f"{folder}/same.csv", "-q", "--profile", f"{lines}|layername=valleys"],

@@ -2,6 +2,7 @@
 #include "command.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/picture.hpp>
 #include <thalweg/io/write_tin.hpp>
 #include <thalweg/pipeline/inspect.hpp>
 
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace thalweg::cli {
 
@@ -76,6 +78,12 @@ void add_view_command(CLI::App& app) {
 
 namespace {
 
+std::vector<std::string> picture_extensions() {
+  std::vector<std::string> extensions;
+  for (const FormatInfo& format : picture_formats()) extensions.push_back(format.extensions.front());
+  return extensions;
+}
+
 std::string formats_text() {
   std::string text = fmt::format("{:<10}{:<18}{:<8}{}\n", "TIN", "extensions", "access", "what it is");
   for (const FormatInfo& format : tin_formats()) {
@@ -90,8 +98,9 @@ std::string formats_text() {
       "LAS 1.2 to 1.4, " +
       std::string(reads_laz() ? "compressed (LAZ) or not" : "uncompressed (built without PDAL: no LAZ)") +
       "; vertices of a mesh.\n"
-      "Lines and areas: any OGR line or polygon layer. Pictures: .png .svg .pdf.\n";
-  return text;
+      "Lines and areas: any OGR line or polygon layer. Pictures:";
+  for (const std::string& extension : picture_extensions()) text += " " + extension;
+  return text + ".\n";
 }
 
 std::string formats_json() {
@@ -109,8 +118,8 @@ std::string formats_json() {
   const Json json = {{"tin", tins},
                      {"points", points},
                      {"lines", {"OGR line and polygon layers"}},
-                     {"pictures", {".png", ".svg", ".pdf"}}};
-  return json.dump(2) + "\n";
+                     {"pictures", picture_extensions()}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

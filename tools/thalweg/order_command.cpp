@@ -4,6 +4,7 @@
 #include "pipeline/source_options.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/io/pending_outputs.hpp>
 #include <thalweg/pipeline/order_points.hpp>
 
 #include <charconv>
@@ -62,13 +63,22 @@ void check_use(const CLI::App& command, const OrderArguments& a) {
 void run_order(const CLI::App& command, OrderArguments& a) {
   OrderConfig& config = a.config;
   check_use(command, a);
+  bool list_is_printed = false;
+  for (const std::string* path :
+       {&config.triangles_path, &config.edges_path, &config.conflicts_path, &config.quadrilaterals_path})
+    list_is_printed |= is_standard_output(*path);
+  if (list_is_printed && (!a.triangles.empty() || config.census)) {
+    throw Error(ErrorCode::Usage,
+                "a list and answers cannot both go to standard output; name a file for the list");
+  }
   for (const std::string& source : a.points) config.points.push_back(parse_source(source));
   apply_sources(a.sources, config.read, config.lines);
   require_lines_to_cross(config.ground.crossing, OrderConfig().ground.crossing, config.lines);
   for (const std::string& triangle : a.triangles) config.triangles.push_back(parse_triangle(triangle));
   config.definition = parse_definition(a.definition);
   config.max_order = parse_order("--order", a.order);
-  config.announce = [&a](const OrderResult& result) {
+  config.announce = [&a, list_is_printed](const OrderResult& result) {
+    if (list_is_printed) return;
     if (a.common.format == Format::Json) {
       print(to_json(result));
     } else if (a.common.quiet == 0 || !result.asked.empty() || a.config.census) {

@@ -28,7 +28,10 @@ std::function<void(const Report&)> report_printer(const Common& common, const Ou
     throw Error(ErrorCode::Usage, "TIN and report cannot both go to standard output; name a file for one");
   }
   if (output.report_path == "-") return [](const Report& report) { print(to_json(report)); };
-  if (is_standard_output(output.path)) return {};
+  // No summary into what is read by a program.
+  for (const std::string* path : {&output.path, &output.proof_path, &output.problem_path}) {
+    if (is_standard_output(*path)) return {};
+  }
   return [&common](const Report& report) { print_result(report, common); };
 }
 

@@ -28,6 +28,5 @@ using VertexId = Id<struct VertexTag>;
 using TriangleId = Id<struct TriangleTag>;
 /// Halfedge 3 t + i runs from corner i to corner (i + 1) % 3 of triangle t, which lies to its left.
 using HalfedgeId = Id<struct HalfedgeTag>;
-using QuadrilateralId = Id<struct QuadrilateralTag>;
 
 }  // namespace thalweg

@@ -23,14 +23,14 @@ class Geoid {
   Geoid(const Geoid&) = delete;
   Geoid& operator=(const Geoid&) = delete;
 
-  /// Adds `sign` times the geoid's height above the WGS 84 ellipsoid, in units of `metres_per_unit`, to the
-  /// heights z, by cubic interpolation. Returns the smallest and largest height of the geoid, in metres.
-  /// Pre: z is as long as lonlat_deg, positions are finite. Throws: Error{BadCoordinate} for a latitude out
-  /// of range; Error{Unreadable}. Complexity: linear.
   struct Range {
     double min_m = 0;
     double max_m = 0;
   };
+  /// Adds `sign` times the geoid's height above the WGS 84 ellipsoid, in units of `metres_per_unit`, to the
+  /// heights z, by cubic interpolation. Returns the smallest and largest height of the geoid, in metres.
+  /// Pre: z is as long as lonlat_deg, positions are finite. Throws: Error{BadCoordinate} for a latitude out
+  /// of range; Error{Unreadable}. Complexity: linear.
   Range add_to(std::span<double> z, std::span<const Point2> lonlat_deg, double sign,
                double metres_per_unit) const;
 

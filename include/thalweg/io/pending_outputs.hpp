@@ -2,6 +2,7 @@
 
 /// Output files that appear whole or not at all.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -56,6 +57,7 @@ class PendingOutputs {
     std::string target;
     std::string written;  ///< the temporary path; the target itself for streams
     Overwrite mode = Overwrite::No;
+    std::array<std::string, 3> remains;  ///< of `written`; made before, for memory may be why it is removed
     [[nodiscard]] bool is_file() const { return written != target; }
   };
   static void check_new(const Output& output, const std::vector<Output>& known);
@@ -68,6 +70,7 @@ class PendingOutputs {
   std::vector<std::string> sources_;
   std::vector<Output> outputs_, planned_;
   std::vector<std::string> stale_;
+  bool committed_ = false;  ///< files may have got their names
 };
 
 /// Writes a text to the path that `PendingOutputs::add` gave for `target`. Throws: Error{WriteFailed} naming
@@ -76,7 +79,8 @@ void write_text(const std::string& path, const std::string& target, std::string_
 
 /// For a process that is to end now, whatever its other threads are doing: removes the temporary files of
 /// every PendingOutputs in it; `add` and `commit` then do not return any more. False, and nothing is done, if
-/// a commit has begun to give files their names: then let the process end by itself. Not for signal handlers.
+/// files were given their names and no PendingOutputs is left that is yet to do so: then let the process end
+/// by itself. Allocates nothing. Not for signal handlers.
 bool abandon_pending_outputs() noexcept;
 
 }  // namespace thalweg

@@ -63,7 +63,7 @@ struct Conflict {
 struct Survey {
   std::vector<SourceLayer> sources;
   SurveyPoints points;
-  /// Ridges, valleys, breaklines, and rings of boundaries and holes, in the order in which they were given.
+  /// Ridges, valleys, breaklines, and rings of boundaries, holes and lakes, in the order they were given.
   std::vector<SurveyLine> lines;
   /// From the plane back to the coordinates of the sources, for messages; empty: they are the same.
   std::function<Point2(Point2)> to_source;

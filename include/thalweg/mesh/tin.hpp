@@ -55,8 +55,8 @@ class Tin {
   Tin() = default;
   /// Takes vertices and triangles (counter-clockwise, any order and start) and the constraint edges.
   /// Throws: Error{InvalidTin} if an id is out of range or repeated in a triangle, if two triangles lie on
-  /// the same side of an edge, or if a constraint edge is no edge of any triangle. Complexity: linear for
-  /// bounded vertex degree.
+  /// the same side of an edge, or if a constraint edge is no edge of any triangle; Error{SizeLimit} for more
+  /// than 2^30 - 1 triangles or vertices. Complexity: linear for bounded vertex degree.
   Tin(std::vector<Point2> points, std::vector<double> heights, std::vector<Triangle> triangles,
       std::span<const ConstraintEdge> constraints);
   /// Takes triangles that are sorted and linked; nothing of that is checked. Complexity: constant.

@@ -36,7 +36,7 @@ struct OptimizeOptions {
 };
 
 /// How good the result is in one criterion. Sums are exact sums of terms, each rounded once to 2^-32 of its
-/// unit.
+/// unit (areas: 2^-22).
 struct CriterionResult {
   std::string name;
   std::string unit;

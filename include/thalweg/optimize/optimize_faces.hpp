@@ -38,11 +38,11 @@ struct FaceOptimizeResult {
   /// By criterion a bound over all triangulations, whatever they reach in the criteria before it.
   std::vector<double> bounds_alone;
   std::size_t faces = 0;
-  std::size_t partial_faces = 0;   ///< those of which only some triangulations were chosen from
-  std::size_t largest_face = 0;    ///< triangles
-  std::size_t labels = 0;          ///< triangulations of all faces that may be best for choices elsewhere
-  std::size_t most_labels = 4000;  ///< of one face
-  std::size_t new_edges = 0;       ///< that the given TIN does not have
+  std::size_t partial_faces = 0;  ///< those of which only some triangulations were chosen from
+  std::size_t largest_face = 0;   ///< triangles
+  std::size_t labels = 0;         ///< triangulations of all faces that may be best for choices elsewhere
+  std::size_t most_labels = 0;    ///< of one face
+  std::size_t new_edges = 0;      ///< that the given TIN does not have
   std::size_t fixed_by_elimination = 0;  ///< variables: faces, and what counts pits
   std::size_t pieces = 0;
   std::size_t largest_piece = 0;  ///< variables

@@ -74,9 +74,6 @@ std::optional<FixedFaces> find_fixed_faces(const Tin& surface, std::vector<Order
 std::vector<OrderTriangle> keep_on_surface(const Tin& surface, std::vector<OrderTriangle> triangles,
                                            const Progress& progress);
 
-/// Vertices of a face at none of its fixed edges: its triangulations have to meet them. Ascending.
-std::vector<VertexId> vertices_inside(const FixedFaces& faces, std::size_t face);
-
 struct TriangulationListOptions {
   std::size_t most = 4096;             ///< triangulations
   std::size_t work_limit = 2'000'000;  ///< edges of fronts

@@ -29,10 +29,13 @@ struct ReportInput {
   std::size_t points_used = 0;
   std::size_t duplicates_merged = 0;
   std::size_t outside_boundary = 0;
+  std::size_t outside_bbox = 0;  ///< points; of a raster cells, valid or not
   std::size_t nodata_skipped = 0;
   std::size_t nodata_holes_bridged = 0;
+  std::size_t nodata_cells_bridged = 0;
   std::size_t breaklines_read = 0;
   std::size_t breakline_vertices = 0;
+  std::size_t lines_outside_bbox = 0;
   std::size_t crossings = 0;
   std::size_t lakes = 0;                       ///< bodies of water; lakes that touch are one
   std::size_t points_in_lakes = 0;             ///< points whose height gave way to a lake's level

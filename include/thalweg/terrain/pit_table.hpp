@@ -48,7 +48,7 @@ struct PitTable {
 
 /// Laws: (1) as many pits as find_pits counts inside of the TIN, without those at given outlets; (2) every
 /// depth is positive; (3) fill_height is the least, over all ways along edges to a way out, of the greatest
-/// height on the way. Pre: `flow` is of `tin`. Throws: Error{Cancelled}. Complexity: linear, plus
+/// height on the way. Throws: Error{Cancelled}. Complexity: linear, plus
 /// n log n in pits that meet, plus the vertices under water in each pit, nested ones again; on all threads.
 PitTable tabulate_pits(const SurfaceFlow& flow, const MetricScale& scale, Progress& progress);
 

@@ -18,7 +18,7 @@ struct Volumes {
 };
 
 /// The TIN against the level plane at `height`. Exact but for rounding: each triangle is cut where it crosses
-/// the plane. Complexity: linear.
+/// the plane. Throws: Error{Cancelled}. Complexity: linear.
 Volumes volume_above(const Tin& tin, double height, const Progress& progress);
 
 /// `tin` against `base`, in the same plane and units. Exact but for rounding: triangles are cut along each

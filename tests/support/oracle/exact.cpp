@@ -4,8 +4,7 @@
 //    coordinates of d that is a combination of four lifts whose coefficients are orientations.
 // 2. Symbolic perturbation: where that combination is zero, the coefficient of the largest site decides.
 // 3. Along pq, parametrised by s in [0, 1], the power is the quadratic |pq|^2 s^2 + linear + constant, which
-// the
-//    powers at the two ends determine; with both ends outside it is negative somewhere if and only if its
+//    the powers at the two ends determine; with both ends outside it is negative somewhere if and only if its
 //    vertex lies strictly between them and its discriminant is positive.
 #include <support/oracle/exact.hpp>
 

@@ -1,10 +1,9 @@
 // Separation inside a disc by parity.
 //
 // 1. Obstacles: the parts of constraint edges in the open disc D, and all that is not D. As a graph: a node
-// for
-//    each constraint end strictly in D, one node for the circle and all beyond; an arc for each constraint
-//    edge that enters D, from each of its ends that is strictly in D, else from the circle. (A chord is a
-//    loop.)
+//    for each constraint end strictly in D, one node for the circle and all beyond; an arc for each
+//    constraint edge that enters D, from each of its ends that is strictly in D, else from the circle. (A
+//    chord is a loop.)
 // 2. Two points of D off the obstacles are separated if and only if some cycle of that graph has one of them
 //    inside (Jordan, Janiszewski), that is, if a curve in D between them that meets arcs only by crossing
 //    them crosses this cycle an odd number of times. (A cycle through the circle's node is closed along the
@@ -12,9 +11,8 @@
 //    coloured with two colours such that exactly the arcs crossed an odd number of times join different
 //    colours.
 // 3. The curve: straight from a point x of t's interior, chosen so that no constraint end but p lies on the
-// line
-//    through x and p, to right before p; then round p, over one constraint edge of p after the other, to each
-//    of the wedges between them. p is joined if it is joined by one of its wedges. Where p lies on the
+//    line through x and p, to right before p; then round p, over one constraint edge of p after the other, to
+//    each of the wedges between them. p is joined if it is joined by one of its wedges. Where p lies on the
 //    circle, only edges that enter D bound wedges; turning both ways from x reaches all of them without
 //    leaving D.
 #include <support/oracle/path_by_parity.hpp>

@@ -1,15 +1,13 @@
 // Vertical slabs.
 //
 // 1. Turn and scale the plane by a Gaussian integer, so that no two sites share an abscissa; clip each
-// constraint
-//    edge to the open disc. Cut the disc at the abscissas of all ends of clipped edges, of p and of the
-//    circle's two extremes.
+//    constraint edge to the open disc. Cut the disc at the abscissas of all ends of clipped edges, of p and
+//    of the circle's two extremes.
 // 2. In a slab the clipped edges that span it do not meet: they and the two arcs bound a stack of cells.
-// Cells of
-//    neighbouring slabs are joined where their sides overlap in more than a point.
+// Cells of neighbouring slabs are joined where their sides overlap in more than a point.
 // 3. p is joined to the triangle if a cell whose closure holds p is joined to the cell of a point of the
-// triangle. Numbers have 100 digits; those that differ do so by far more than kTolerance at the coordinates
-// of scenes.
+//    triangle. Numbers have 100 digits; those that differ do so by far more than kTolerance at the
+//    coordinates of scenes.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <support/oracle/path_by_slabs.hpp>
 

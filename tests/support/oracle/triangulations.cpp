@@ -1,15 +1,12 @@
 // Enumeration: grow a patch of triangles over its open sides.
 //
 // 1. A directed edge has its triangle on the left. The candidates of a directed edge are the valid triangles
-// there; an
-//    edge without candidates has no ground on its left, and needs none.
+//    there; an edge without candidates has no ground on its left, and needs none.
 // 2. Start with any directed edge of the rim and each of its candidates. While some side of the patch lacks
-// the
-//    triangle beyond it, take the side with the fewest candidates whose interiors meet no chosen triangle's
-//    interior, and try each. The side depends on the patch only, so no triangulation is met twice.
+//    the triangle beyond it, take the side with the fewest candidates whose interiors meet no chosen
+//    triangle's interior, and try each. The side depends on the patch only, so no triangulation is met twice.
 // 3. No side is left: the patch is a triangulation. Valid triangles hold no site and no part of a constraint
-// edge
-//    inside, so all sites and constraint edges of the ground are vertices and edges of it.
+//    edge inside, so all sites and constraint edges of the ground are vertices and edges of it.
 #include <support/oracle/triangulations.hpp>
 
 #include <algorithm>

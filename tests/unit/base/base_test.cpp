@@ -1,4 +1,5 @@
-// Error names, ids, progress and cancel, and loops in blocks.
+// Error names, ids, progress and cancel, small letters, and loops in blocks.
+#include "base/lower_case.hpp"
 #include "base/parallel.hpp"
 
 #include <thalweg/base/assert.hpp>
@@ -87,6 +88,21 @@ TEST(Progress, CancelStopsTheWork) {
     EXPECT_EQ(error.code(), ErrorCode::Cancelled);
   }
   EXPECT_THROW(progress.start_phase("more"), Error);
+}
+
+TEST(Progress, CancelInTheLastReportStopsTheWork) {
+  Progress progress([&](const std::string&, double fraction) {
+    if (fraction == 1) progress.cancel();
+  });
+  progress.start_phase("write");
+  EXPECT_NO_THROW(progress.advance(0.5));
+  EXPECT_THROW(progress.advance(1), Error);
+}
+
+TEST(LowerCase, MakesAsciiSmallAlone) {
+  EXPECT_EQ(lower("AZaz[@`{09 \xc3\x84"), "azaz[@`{09 \xc3\x84");
+  EXPECT_EQ(extension_of("A.B/c.d.PLY"), ".ply");
+  EXPECT_EQ(extension_of("a.b/c"), "");
 }
 
 TEST(ForEachBlock, TilesTheRange) {

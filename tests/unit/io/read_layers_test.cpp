@@ -101,7 +101,23 @@ TEST_F(ReadLayers, LinearisesCurvesAndSkipsWhatIsNoLine) {
   EXPECT_EQ(arc.survey.lines[0].xy.back(), (Point2{2, 0}));
   EXPECT_EQ(arc.survey.lines[1].xy.front(), arc.survey.lines[1].xy.back());
   EXPECT_EQ(arc.breaklines_read, 3U);
-  EXPECT_TRUE(has_note(arc, "fewer than two vertices"));
+  EXPECT_EQ(arc.breakline_vertices, arc.survey.lines[0].xy.size() + arc.survey.lines[1].xy.size());
+  EXPECT_TRUE(has_note(arc, "1 lines of fewer than two vertices"));
+}
+
+TEST_F(ReadLayers, SkipsArraysThatAreNoLine) {
+  const MemorySource memory{.xy = {{0, 0}, {1, 0}, {0, 1}},
+                            .z = {1, 2, 3},
+                            .lines = {{.kind = EdgeKind::Ridge, .xy = {{0, 0}}},
+                                      {.kind = EdgeKind::Ridge, .xy = {{0, 0}, {1, 0}}},
+                                      {.kind = EdgeKind::Ridge}}};
+  Progress progress;
+  const ReadResult result = read_survey({}, {}, {}, progress, memory);
+  ASSERT_THAT(result.survey.lines, SizeIs(1));
+  EXPECT_EQ(result.survey.lines[0].feature, 1);
+  EXPECT_EQ(result.breaklines_read, 3U);
+  EXPECT_EQ(result.breakline_vertices, 2U);
+  EXPECT_TRUE(has_note(result, "2 lines of fewer than two vertices"));
 }
 
 TEST_F(ReadLayers, GivesLinesTheHeightOfAField) {

@@ -111,6 +111,14 @@ TEST_F(ReadRaster, TellsHolesFromOutside) {
   EXPECT_TRUE(none.nodata.outside({1.5, 3.5}));
 }
 
+TEST_F(ReadRaster, AsksForAdmissionBeforeAllIsRead) {
+  const std::string file = write_grid("g.asc", {"1.11", "1111", "1111", "1111"});
+  const auto most = [](std::size_t points) {
+    if (points > 5) throw Error(ErrorCode::SizeLimit, std::to_string(points));
+  };
+  expect_error(ErrorCode::SizeLimit, {"7"}, [&] { read({file}, {.admit = most}); });
+}
+
 TEST_F(ReadRaster, JudgesDualCellsByTheirValidCorners) {
   // Centres at 0.5, 1.5, 2.5; the one at (0.5, 2.5) is invalid and touches the frame.
   const ReadResult one = read({write_grid("g.asc", {".11", "111", "111"})});

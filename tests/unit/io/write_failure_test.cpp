@@ -2,9 +2,12 @@
 // The portable way to a small disk: a limit on the size of files (setrlimit), its signal ignored.
 #include "write_scene.hpp"
 
+#include <thalweg/io/write_raster.hpp>
+
 #include <sys/resource.h>
 
 #include <csignal>
+#include <stdexcept>
 
 namespace thalweg {
 namespace {
@@ -58,6 +61,21 @@ TEST_P(FullDisk, GivesWriteFailedAndNoFile) {
   const FileSizeLimit limit(whole);
   test::write_file(path, view);
   EXPECT_EQ(std::filesystem::file_size(path), whole);
+}
+
+TEST(WriteRaster, PassesOnWhatAReportThrows) {
+  const TempFolder folder;
+  const std::vector<double> values(2500, 1);
+  Progress progress([](const std::string& phase, double fraction) {
+    if (phase.starts_with("write") && fraction > 0) throw std::logic_error("stop");
+  });
+  const RasterView view{.grid = {0, 0, 1, 50, 50}, .values = values};
+  {
+    PendingOutputs pending;
+    EXPECT_THROW(write_raster(folder.file("a.tif"), view, {}, pending, Overwrite::No, progress),
+                 std::logic_error);
+  }
+  EXPECT_TRUE(folder.names().empty());
 }
 
 TEST(FullDisk, DeviceWithoutRoom) {

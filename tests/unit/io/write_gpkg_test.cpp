@@ -25,7 +25,7 @@ TEST(WriteGpkg, LayersHoldWhatIsKnown) {
   std::vector<std::uint16_t> orders(tin.triangle_count(), 1);
   orders[2] = 3;
   const std::vector<Conflict> conflicts = {
-      {Conflict::Kind::Crossing, {1, 2}, 10, 12, 10, "a.gpkg|v", "b.gpkg|r"}};
+      {Conflict::Kind::PointOnLine, {1, 2}, 10, 12, 10, "a.gpkg|v", "b.gpkg|r"}};
   write_file(folder.file("a.gpkg"), {.tin = tin,
                                      .crs_authority = "EPSG:32611",
                                      .is_pit = pits,
@@ -69,7 +69,7 @@ TEST(WriteGpkg, LayersHoldWhatIsKnown) {
   layer = dataset->GetLayerByName("conflicts");
   ASSERT_NE(layer, nullptr);
   feature.reset(layer->GetNextFeature());
-  EXPECT_STREQ(feature->GetFieldAsString("kind"), "crossing");
+  EXPECT_STREQ(feature->GetFieldAsString("kind"), "point-on-line");
   EXPECT_EQ(feature->GetFieldAsDouble("z_b"), 12);
   EXPECT_STREQ(feature->GetFieldAsString("source_b"), "b.gpkg|r");
   EXPECT_EQ(test::read_file(folder.file("a.gpkg")).triangle_orders, orders);

@@ -3,6 +3,8 @@
 
 #include <sys/stat.h>
 
+#include <cstdlib>
+
 namespace thalweg {
 namespace {
 
@@ -78,6 +80,36 @@ TEST(PendingOutputs, DevicesAreWrittenDirectly) {
     pending.commit();
   }
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+// In a process of its own, which ends with 0 if all is as told.
+[[noreturn]] void abandon_after_commit(const std::string& done, const std::string& left) {
+  {
+    PendingOutputs first;
+    test::write_text(first.add(done, Overwrite::No), "whole");
+    first.commit();
+  }
+  PendingOutputs second;
+  const std::string written = second.add(left, Overwrite::No);
+  test::write_text(written, "part");
+  test::write_text(written + "-wal", "part");
+  std::_Exit(abandon_pending_outputs() ? 0 : 1);
+}
+
+TEST(PendingOutputs, AbandonedAfterACommit) {
+  const TempFolder folder;
+  EXPECT_EXIT(abandon_after_commit(folder.file("a.ply"), folder.file("b.gpkg")), testing::ExitedWithCode(0),
+              "");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.ply"});
+}
+
+TEST(PendingOutputs, NothingIsLeftToAbandonOnceAllIsCommitted) {
+  const TempFolder folder;
+  PendingOutputs pending;
+  test::write_text(pending.add(folder.file("a.ply"), Overwrite::No), "whole");
+  pending.commit();
+  EXPECT_FALSE(abandon_pending_outputs());
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.ply"});
 }
 
 TEST(PendingOutputs, StaleFilesGoAtCommitOnly) {

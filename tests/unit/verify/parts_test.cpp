@@ -4,10 +4,15 @@
 #include "verify/plain_delaunay.hpp"
 #include "verify/plain_solver.hpp"
 
+#include <thalweg/base/error.hpp>
+#include <thalweg/verify/proof.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace thalweg::verify {
@@ -39,6 +44,19 @@ TEST(Exact, OfFourPointsOnACircleTheLargestIsOutside) {
   EXPECT_TRUE(counts_as_inside(a, b, c, d));
   EXPECT_EQ(circle_side(a, b, c, {0, 1 + 0x1p-52}), -1);
   EXPECT_EQ(circle_side(a, b, c, {0x1p-60, 1 - 0x1p-53}), 1);
+}
+
+TEST(ReadProof, RefusesStepsWithoutAWordThatIsKnown) {
+  for (const std::string step : {" 0+ 1-", "", "cuts 0+"}) {
+    std::istringstream text("thalweg-proof 1\nstage 0\ncut 0+ 1-\n" + step + "\nend\n");
+    try {
+      verify::read_proof(text, "p.proof");
+      ADD_FAILURE() << "'" << step << "' was taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::BadFormat);
+      EXPECT_NE(std::string(error.what()).find("p.proof line 4"), std::string::npos) << error.what();
+    }
+  }
 }
 
 // The least of all labellings.

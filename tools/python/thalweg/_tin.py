@@ -124,11 +124,11 @@ def _run(fill: Callable[[int], None], work: Callable[[int, Any], None], progress
         tin = ctypes.c_void_p()
         try:
             work(job, ctypes.byref(tin))
-        except Exception:
+        finally:
+            result = Tin(tin.value)  # is freed in any case
             if raised:
                 raise raised[0] from None
-            raise
-        return Tin(tin.value)
+        return result
     finally:
         LIBRARY.thalweg_job_free(job)
 

@@ -40,8 +40,11 @@ ridges. Heights are not changed. The layers are loaded; the report is JSON."""
                 arguments += [option, self.source(layer, context, feedback)]
         for name, option in (("SEED_SPACING", "--seed-spacing"), ("MIN_AREA", "--min-area"),
                              ("PASS_PITS", "--pass-pits")):
-            if parameters.get(name) is not None:
-                arguments += [option, repr(self.parameterAsDouble(parameters, name, context))]
+            if parameters.get(name) is None:
+                continue
+            value = self.parameterAsDouble(parameters, name, context)
+            if value > 0 or name != "SEED_SPACING":  # a lattice of no width is none
+                arguments += [option, repr(value)]
         results = {"OUTPUT": output}
         arguments += self.report_arguments(parameters, context, results)
         run(arguments, feedback)
