@@ -53,6 +53,9 @@ ConditionConfig parse_condition(const CLI::App& command, const ConditionArgument
     throw Error(ErrorCode::Usage,
                 "--condition-norm is about monotone-valleys, which --condition does not ask for");
   }
+  if (!arguments.outlets.empty() && !config.changes_pits()) {
+    throw Error(ErrorCode::Usage, "--outlets is about pits, which --condition does not ask to fill or breach");
+  }
   config.norm = arguments.norm == "sum" ? ChangeNorm::Sum : ChangeNorm::Squares;
   if (command.count("--condition-max") > 0) config.max_m = arguments.max_m;
   for (const std::string& file : arguments.outlets) config.outlets.push_back(parse_source(file));

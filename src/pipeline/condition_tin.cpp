@@ -74,6 +74,9 @@ std::vector<ConditionStep> parse_condition(const std::string& text) {
                               "breach, separated by commas",
                               word));
     }
+    if (std::find(steps.begin(), steps.end(), *step) != steps.end()) {
+      throw Error(ErrorCode::Usage, "--condition names '" + word + "' twice");
+    }
     steps.push_back(*step);
     begin = end + 1;
   }
@@ -150,6 +153,14 @@ Survey drawn_valleys(const Survey& survey, const ConditionConfig& config) {
   std::copy_if(survey.lines.begin(), survey.lines.end(), std::back_inserter(valleys.lines),
                [](const SurveyLine& line) { return has(line.kind, EdgeKind::Valley); });
   return valleys;
+}
+
+std::optional<std::string> note_of_no_valley(const Tin& tin, const ConditionConfig& config) {
+  if (!config.makes_valleys_monotone()) return std::nullopt;
+  for (std::size_t i = 0; i < tin.halfedge_count(); ++i) {
+    if (has(tin.kind(HalfedgeId{i}), EdgeKind::Valley)) return std::nullopt;
+  }
+  return "the TIN has no drawn valley, so monotone-valleys changes nothing (--valleys of build draws them)";
 }
 
 std::optional<std::string> note_of_large_change(std::span<const ReportChange> changes, const Plane& plane,

@@ -40,6 +40,8 @@ std::vector<ReportChange> list_changes(std::span<const HeightChange> changes, st
                                        std::span<const VertexId> number);
 /// The valleys of a survey, if they are to be made monotone: for the note below.
 Survey drawn_valleys(const Survey& survey, const ConditionConfig& config);
+/// A note if valleys are to be made monotone, and none is drawn.
+std::optional<std::string> note_of_no_valley(const Tin& tin, const ConditionConfig& config);
 /// A note if monotone valleys took a height far from where it was, with the place: more likely a line or a
 /// height is wrong. Heights in the TIN's unit. `drawn`: valleys in the plane, of which that at the place is
 /// named; none: none is.

@@ -116,7 +116,6 @@ void describe(const LoadedTin& loaded, const SurfaceFlow& flow, const PitTable& 
     const Sink::Kind end = flow.sinks()[spilling.end[index].index()].kind;
     if (end != Sink::Kind::Outlet && end != Sink::Kind::Given) continue;
     report.drained_area_m2 += sink.area * square;
-    if (sink.kind == Sink::Kind::Outlet && sink.area > 0) ++report.rim_outlets;
     if (sink.kind == Sink::Kind::Given) ++given;
   }
   report.interior_by_depth = table.interior_by_depth;
@@ -142,8 +141,9 @@ void write_model(const LoadedTin& loaded, const SwmmView& view, const DrainConfi
   report.swmm = model.report;
   if (model.report.outfalls == 0) {
     report.notes.emplace_back(
-        "the model has no outfall, without which SWMM does not run: all of the network ends in pits; see "
-        "--pass-pits, --condition, --outlets");
+        std::string("the model has no outfall, without which SWMM does not run: ") +
+        (view.network.empty() ? "the network has no reach; see --min-area"
+                              : "all of the network ends in pits; see --pass-pits, --condition, --outlets"));
   }
   write_text(outputs.add(config.swmm_path, mode), config.swmm_path, model.text);
 }
@@ -192,10 +192,12 @@ std::vector<HeightChange> condition(LoadedTin& loaded, std::span<const VertexId>
 
 /// What was changed, as a layer; notes in the report where a height changed by much.
 FeatureLayer changed_heights(const LoadedTin& loaded, std::span<const HeightChange> changes,
-                             DrainReport& report) {
+                             const ConditionConfig& condition, DrainReport& report) {
   const std::vector<ReportChange> list = list_changes(changes, loaded.written_points(), {});
   const auto note = note_of_large_change(list, loaded.plane, {});
   if (note) report.notes.push_back(*note);
+  const auto idle = note_of_no_valley(loaded.tin, condition);
+  if (idle) report.notes.push_back(*idle);
   return change_layer(list, loaded.plane);
 }
 
@@ -228,6 +230,9 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   std::vector<std::uint32_t> end_of_sink;
   for (const SinkId end : spilling.end) end_of_sink.push_back(end.value());
   const std::vector<double> area_m2 = sum_areas(flow, end_of_sink, square);
+  for (std::size_t s = 0; s < area_m2.size(); ++s) {
+    if (flow.sinks()[s].kind == Sink::Kind::Outlet && area_m2[s] > 0) ++report.rim_outlets;
+  }
   for (std::size_t i = 0; i < outlets.size(); ++i) {
     report.outlets[i].catchment_area_m2 = area_m2[flow.sink_of(outlets[i]).index()];
   }
@@ -245,10 +250,10 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   std::vector<FeatureLayer> layers = {
       pit_layer(loaded, table), path_layer(loaded, flow, paths), network_layer(loaded, flow, network),
       catchment_layer(loaded, flow, catchments, area_m2), inconsistency_layer(loaded, report.consistency)};
-  if (report.conditioned) layers.push_back(changed_heights(loaded, changes, report));
+  if (report.conditioned) layers.push_back(changed_heights(loaded, changes, config.condition, report));
   write_features(config.output, layers, loaded.crs.wkt, outputs, mode, progress);
   if (!config.mesh_path.empty()) {
-    write_flow_mesh(loaded, {flow, spilling, end_of_sink, outlets, catchments}, config, outputs, progress);
+    write_flow_mesh(loaded, {flow, spilling, end_of_sink, table, catchments}, config, outputs, progress);
   }
   if (!config.swmm_path.empty()) {
     write_model(loaded, {flow, table, spilling, network, outlets}, config, report, outputs, progress);

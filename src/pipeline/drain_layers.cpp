@@ -124,7 +124,7 @@ FeatureLayer path_layer(const LoadedTin& loaded, const SurfaceFlow& flow, std::s
                            path.points[k].xy.y - path.points[k - 1].xy.y);
     }
     FeatureLine line = line_of(loaded, path.points);
-    if (!path.points.front().vertex.valid()) line.xy.front() = paths[i].written;
+    if (!path.points.front().vertex.valid()) line.xy.front() = loaded.plane.without_jump(paths[i].written);
     const double fall = path.points.front().z - path.points.back().z;
     layer.features.push_back(
         {{{std::move(line)}},

@@ -1,11 +1,9 @@
-// Values read off the flow: all channels are reaches of a network without a least area; the level of full
-// pits is what filling them would leave.
+// Values read off the flow: all channels are reaches of a network without a least area.
 #include "pipeline/flow_attributes.hpp"
 
 #include "base/lower_case.hpp"
 
 #include <thalweg/base/error.hpp>
-#include <thalweg/terrain/condition.hpp>
 
 #include <algorithm>
 #include <array>
@@ -68,6 +66,19 @@ std::vector<double> catchments_of_vertices(const Tin& tin, const FlowView& view)
   return number;
 }
 
+/// By vertex: how deep it lies below the level to which its pit is filled.
+std::vector<double> depths_of_water(const LoadedTin& loaded, const FlowView& view) {
+  std::vector<double> level(view.flow.sinks().size(), -std::numeric_limits<double>::infinity());
+  for (const Pit& pit : view.pits.pits) level[pit.sink.index()] = pit.fill_height;
+  std::vector<double> depth;
+  for (std::size_t v = 0; v < loaded.tin.vertex_count(); ++v) {
+    const SinkId sink = view.flow.sink_of(VertexId{v});
+    const double water = sink.valid() ? level[sink.index()] - loaded.tin.heights()[v] : 0;
+    depth.push_back(std::max(water, 0.0) * loaded.plane.vertical_metres_per_unit());
+  }
+  return depth;
+}
+
 Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progress& progress) {
   const Tin& tin = loaded.tin;
   const double metres = loaded.plane.metres_per_unit(), square = metres * metres;
@@ -82,11 +93,7 @@ Attributes find_attributes(const LoadedTin& loaded, const FlowView& view, Progre
       {"water", "0 none, 1 valley: both sides drain into it, 2 ridge", "1", std::vector(edges, 0.0)},
       {"upstream_area", "area upstream of the lower end of a channel", "m2", std::vector(edges, kNoValue)},
       {"strahler", "Strahler order of a channel", "1", std::vector(edges, kNoValue)}};
-  const ConditionOptions fill{.steps = {ConditionStep::Fill}, .norm = ChangeNorm::Sum, .max_change = {}};
-  const std::vector<double> full = condition_heights(tin, view.outlets, fill, progress).heights;
-  for (std::size_t v = 0; v < vertices; ++v) {
-    found.vertex[1].values.push_back((full[v] - tin.heights()[v]) * loaded.plane.vertical_metres_per_unit());
-  }
+  found.vertex[1].values = depths_of_water(loaded, view);
   const std::vector<std::uint32_t> number = number_edges(tin);
   for (std::size_t i = 0; i < number.size(); ++i) {
     const HalfedgeId h{i};

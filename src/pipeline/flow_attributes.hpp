@@ -18,7 +18,7 @@ struct FlowView {
   const SurfaceFlow& flow;
   const Spilling& spilling;
   std::span<const std::uint32_t> end_of_sink;  ///< by sink: the number of its catchment
-  std::span<const VertexId> outlets;
+  const PitTable& pits;
   std::span<const Catchment> catchments;
 };
 

@@ -3,11 +3,14 @@
 #include "pipeline/read_in_crs.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/geometry/predicates.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -32,10 +35,17 @@ VertexId outlet_at(Point2 written, const Tin& tin, const TriangleGrid& grid, con
                             "take it out of --outlets",
                             written.x, written.y));
   }
-  const auto distance = [&](VertexId v) { return std::hypot(tin.point(v).x - p.x, tin.point(v).y - p.y); };
-  const Triangle& corner = tin.triangle(*t);
-  return *std::min_element(corner.begin(), corner.end(),
-                           [&](VertexId a, VertexId b) { return distance(a) < distance(b); });
+  const Triangle& corners = tin.triangle(*t);
+  std::vector<VertexId> near(corners.begin(), corners.end());
+  for (std::size_t side = 0; side < 3; ++side) {  // on an edge the triangle beyond holds it too
+    const HalfedgeId h = Tin::halfedge(*t, side), twin = tin.twin(h);
+    if (!twin.valid() || orientation(tin.point(tin.origin(h)), tin.point(tin.target(h)), p) != 0) continue;
+    near.push_back(tin.target(Tin::next(twin)));
+  }
+  const auto key = [&](VertexId v) {
+    return std::pair(std::hypot(tin.point(v).x - p.x, tin.point(v).y - p.y), tin.point(v));
+  };
+  return *std::min_element(near.begin(), near.end(), [&](VertexId a, VertexId b) { return key(a) < key(b); });
 }
 
 }  // namespace thalweg

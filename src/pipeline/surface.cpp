@@ -274,6 +274,8 @@ void describe_changes(const Labelled& labelled, const Terrain& terrain, const Ru
   }
   const auto note = note_of_large_change(report.conditioned->changes, run.plane, run.drawn_valleys);
   if (note) report.notes.push_back(*note);
+  const auto idle = note_of_no_valley(labelled.tin, run.condition);
+  if (idle) report.notes.push_back(*idle);
 }
 
 void write_changes(const Report& report, const RunContext& run, Progress& progress) {

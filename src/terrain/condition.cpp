@@ -6,6 +6,7 @@
 // again. What comes out obeys all arcs and is best for fewer of them, so it is best for all. Where a pool of
 // changed vertices needs more than the largest change it gets its heights back.
 #include "base/release.hpp"
+#include "terrain/depth_limit.hpp"
 #include "terrain/isotonic.hpp"
 #include "terrain/pit_removal.hpp"
 #include "terrain/valley_lines.hpp"
@@ -207,10 +208,10 @@ class ValleyRegression {
       if (seen[first] != 0 || !changed(first)) continue;
       std::vector<std::uint32_t> together = {first};
       seen[first] = 1;
-      double most = 0;
+      bool too_much = false;
       for (std::size_t i = 0; i < together.size(); ++i) {
         const std::uint32_t v = together[i];
-        most = std::max(most, std::abs(heights_[v] - original_[v]));
+        too_much = too_much || !apart_at_most(heights_[v], original_[v], max_change);
         for (std::uint32_t k = start_[v]; k < start_[v + 1]; ++k) {
           const std::uint32_t other = other_end(at_[k], v);
           if (seen[other] != 0 || !changed(other)) continue;
@@ -218,7 +219,7 @@ class ValleyRegression {
           together.push_back(other);
         }
       }
-      if (most <= max_change) continue;
+      if (!too_much) continue;
       for (const std::uint32_t v : together) heights_[v] = original_[v];
     }
   }
@@ -305,15 +306,18 @@ ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outl
     return condition_along(tin, outlets, options, {}, progress);
   }
   std::vector<DownArc> arcs = list_arcs(tin, [](const DownArc&) { return true; });
+  ConditionOptions unlimited = options;
+  unlimited.max_change.reset();
   for (;;) {
-    ConditionResult result = condition_along(tin, outlets, options, arcs, progress);
-    if (options.max_change) return result;
+    ConditionResult result = condition_along(tin, outlets, unlimited, arcs, progress);
     // A line of a ring whose ends were level may have a direction now. All arcs hold, so a whole line more,
     // which runs down, makes no cycle.
     const std::vector<DownArc> more = list_arcs(
         tin.with_heights(result.heights),
         [&heights = result.heights](const DownArc& arc) { return heights[arc.above] < heights[arc.below]; });
-    if (more.empty()) return result;
+    if (more.empty()) {
+      return options.max_change ? condition_along(tin, outlets, options, arcs, progress) : std::move(result);
+    }
     arcs.insert(arcs.end(), more.begin(), more.end());
   }
 }

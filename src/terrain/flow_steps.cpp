@@ -31,7 +31,7 @@ class StepFinder {
     next = kNoNode;
     if (step.kind == Kind::Stay) return;
     const bool falls = step.squared_slope >= 0;
-    if (step.kind == Kind::Edge && falls && mesh_.on_rim(step.edge) && graph_.drains(step.edge)) {
+    if (step.kind == Kind::Edge && falls && mesh_.on_rim(step.edge) && graph_.fall(step.edge) == Fall::Out) {
       step.kind = Kind::Leave;
       return;
     }

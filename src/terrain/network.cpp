@@ -21,15 +21,16 @@ HalfedgeId given_edge(const FlowGraph& graph, HalfedgeId h) {
 
 class Accumulator {
  public:
-  Accumulator(const FlowGraph& graph, const Spilling& spilling, double min_area)
-      : graph_(graph),
+  Accumulator(const SurfaceFlow& flow, const Spilling& spilling, double min_area)
+      : flow_(flow),
+        graph_(flow.graph()),
         spilling_(spilling),
         min_area_(min_area),
-        below_(graph.node_count()),
-        area_(graph.ground),
-        waiting_(graph.node_count(), 0),
-        highest_(graph.node_count(), 0),
-        how_often_(graph.node_count(), 0) {}
+        below_(graph_.node_count()),
+        area_(graph_.ground),
+        waiting_(graph_.node_count(), 0),
+        highest_(graph_.node_count(), 0),
+        how_often_(graph_.node_count(), 0) {}
 
   void run(Progress& progress) {
     const auto count = static_cast<FlowNode>(graph_.node_count());
@@ -48,7 +49,7 @@ class Accumulator {
         settle(at);
         waiting_[at] = kSettled;
         if (next == kNoNode) break;
-        pass_on(at, next);
+        pass_on(at, past_end(at, next));
         if (--waiting_[next] != 0) break;
         at = next;
       }
@@ -78,6 +79,16 @@ class Accumulator {
     return graph_.flats.on_rim[overflow.index()] == 0 ? graph_.node_of(overflow) : kNoNode;
   }
 
+  /// What comes across triangles exactly to the vertex at which a channel ends is not in the channel.
+  [[nodiscard]] FlowNode past_end(FlowNode from, FlowNode to) const {
+    if (!(area_[from] > 0) || !graph_.is_vertex(from) || graph_.is_vertex(to)) return to;
+    const VertexId v = graph_.vertex_of(from);
+    const Channel& channel = graph_.channel_of(to);
+    if (graph_.step[v.index()].kind != VertexStep::Kind::Cross || channel.on_rim) return to;
+    const FlowPath leg = flow_.leg_from(graph_.mesh.given(v));
+    return leg.points.back().xy == graph_.mesh.point(channel.low) ? graph_.node_of(channel.low) : to;
+  }
+
   void settle(FlowNode node) {
     if (how_often_[node] > 1) ++highest_[node];
     if (highest_[node] != 0 || !(area_[node] >= min_area_ && area_[node] > 0) || graph_.is_vertex(node))
@@ -93,6 +104,7 @@ class Accumulator {
     highest_[to] = highest_[from];
   }
 
+  const SurfaceFlow& flow_;
   const FlowGraph& graph_;
   const Spilling& spilling_;
   double min_area_;
@@ -132,7 +144,7 @@ std::vector<Reach> find_network(const SurfaceFlow& flow, const Spilling& spillin
   progress.start_phase("find network");
   const FlowGraph& graph = flow.graph();
   const FlowMesh& mesh = graph.mesh;
-  Accumulator sums(graph, spilling, min_area);
+  Accumulator sums(flow, spilling, min_area);
   sums.run(progress);
   progress.advance(0.7);
   std::vector<Reach> network;

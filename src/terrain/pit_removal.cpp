@@ -13,6 +13,8 @@
 // choice for each pit, and nothing drained by an invented slope.
 #include "terrain/pit_removal.hpp"
 
+#include "terrain/depth_limit.hpp"
+
 #include <thalweg/terrain/pits.hpp>
 
 #include <algorithm>
@@ -97,7 +99,7 @@ class Remover {
     return std::abs(level - from) - std::abs(height(v) - from);
   }
   [[nodiscard]] bool allowed(VertexId v, double level) const {
-    return std::abs(level - rules_.original[v.index()]) <= rules_.max_change;
+    return apart_at_most(level, rules_.original[v.index()], rules_.max_change);
   }
 
   /// A vertex of each interior pit, the highest first; lakes that are pits become ways out.

@@ -16,6 +16,7 @@
 #include "base/ordered_blocks.hpp"
 #include "base/parallel.hpp"
 #include "base/union_find.hpp"
+#include "terrain/depth_limit.hpp"
 #include "terrain/flow_graph.hpp"
 #include "terrain/pit_water.hpp"
 
@@ -272,7 +273,9 @@ class Tabulator {
     }
     if (pit.lake) return;
     const auto* const depth_class =
-        std::lower_bound(kDepthClassesMetres.begin(), kDepthClassesMetres.end(), pit.depth_m);
+        std::find_if(kDepthClassesMetres.begin(), kDepthClassesMetres.end(), [&](double limit) {
+          return apart_at_most(pit.spill_height, pit.height, limit, scale_.vertical_metres_per_unit);
+        });
     ++table_.interior_by_depth[static_cast<std::size_t>(depth_class - kDepthClassesMetres.begin())];
   }
 
@@ -298,7 +301,8 @@ Spilling let_spill(const SurfaceFlow& flow, const PitTable& table, double max_de
   spilling.overflow.resize(graph.sinks.size());
   std::vector<SinkId> next(graph.sinks.size());
   for (const Pit& pit : table.pits) {
-    if (pit.lake || pit.depth_m > max_depth_m) continue;
+    const double unit = pit.depth_m / (pit.spill_height - pit.height);
+    if (pit.lake || !apart_at_most(pit.spill_height, pit.height, max_depth_m, unit)) continue;
     const VertexId overflow = graph.mesh.own(pit.overflow);
     const bool leaves = graph.flats.on_rim[overflow.index()] != 0;
     spilling.overflow[pit.sink.index()] = pit.overflow;

@@ -5,6 +5,7 @@
 #include "terrain/flow_graph.hpp"
 
 #include <thalweg/base/error.hpp>
+#include <thalweg/geometry/predicates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -38,6 +39,7 @@ class Walk {
   }
 
   FlowPath from(TriangleId t, Point2 p) {
+    if (const VertexId corner = corner_at(t, p); corner.valid()) return from(corner);
     path_.points.push_back({.xy = p, .z = height_in(t, p)});
     if (const HalfedgeId edge = edge_at(t, p); edge.valid()) {
       leave_edge(edge, share_on(edge, p));
@@ -55,9 +57,6 @@ class Walk {
  private:
   [[nodiscard]] double height_in(TriangleId t, Point2 p) const {
     const Triangle& c = mesh_.triangle(t);
-    for (const VertexId corner : c) {
-      if (mesh_.point(corner) == p) return mesh_.height(corner);
-    }
     const Point2 o = mesh_.point(c[0]);
     const double x1 = mesh_.point(c[1]).x - o.x, y1 = mesh_.point(c[1]).y - o.y;
     const double x2 = mesh_.point(c[2]).x - o.x, y2 = mesh_.point(c[2]).y - o.y;
@@ -69,9 +68,20 @@ class Walk {
     return std::clamp(z, low, high);
   }
 
-  /// The side by which a point lies so near that where its line of flow meets it is all rounding: the
-  /// triangle falls almost along it. None: there is none.
+  [[nodiscard]] VertexId corner_at(TriangleId t, Point2 p) const {
+    for (const VertexId corner : mesh_.triangle(t)) {
+      if (mesh_.point(corner) == p) return corner;
+    }
+    return {};
+  }
+
+  /// The side on which a point lies, or by which it lies so near that where its line of flow meets it is all
+  /// rounding: the triangle falls almost along it. None: there is none.
   [[nodiscard]] HalfedgeId edge_at(TriangleId t, Point2 p) const {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const HalfedgeId h = Tin::halfedge(t, side);
+      if (orientation(mesh_.point(mesh_.origin(h)), mesh_.point(mesh_.target(h)), p) == 0) return h;
+    }
     if (graph_.level(t)) return {};
     constexpr double kSliver = 1e-9;
     const Strip strip = graph_.strip_of(t);
@@ -89,20 +99,39 @@ class Walk {
     return std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / (x * x + y * y), 0.0, 1.0);
   }
 
-  /// From a point of an edge: along it if it is a channel, else into the triangle that takes water in there.
+  /// The square of a triangle's slope; the same bits whatever the numbers of its corners.
+  [[nodiscard]] double steepness(TriangleId t) const {
+    Triangle c = mesh_.triangle(t);
+    std::sort(c.begin(), c.end(), [&](VertexId a, VertexId b) { return mesh_.point(a) < mesh_.point(b); });
+    const Point2 o = mesh_.point(c[0]), p = mesh_.point(c[1]), q = mesh_.point(c[2]);
+    const double x1 = p.x - o.x, y1 = p.y - o.y, z1 = mesh_.height(c[1]) - mesh_.height(c[0]);
+    const double x2 = q.x - o.x, y2 = q.y - o.y, z2 = mesh_.height(c[2]) - mesh_.height(c[0]);
+    const double x = y1 * z2 - y2 * z1, y = z1 * x2 - z2 * x1, area = x1 * y2 - x2 * y1;
+    return (x * x + y * y) / (area * area);
+  }
+
+  /// From a point of an edge: along it if it is a channel, else into the triangle that takes water in there,
+  /// the steeper one of a ridge (of equally steep ones that whose corner across is the first by (x, y)).
   void leave_edge(HalfedgeId h, double at) {
     const HalfedgeId twin = mesh_.twin(h);
     const auto takes_in = [&](HalfedgeId side) { return side.valid() && graph_.fall(side) == Fall::In; };
     if (graph_.is_channel(h)) {
       side_ = h;
       at_ = at;
-    } else if (takes_in(h)) {
+    } else if (takes_in(h) && !(takes_in(twin) && is_better(twin, h))) {
       enter(h, at);
     } else if (takes_in(twin)) {
       enter(twin, 1 - at);
     } else {
-      arrive(graph_.low_corner(Tin::triangle_of(h)));  // level on both sides
+      const VertexId low = graph_.low_corner(Tin::triangle_of(h));  // level on both sides
+      arrive(twin.valid() ? graph_.lower(low, graph_.low_corner(Tin::triangle_of(twin))) : low);
     }
+  }
+
+  [[nodiscard]] bool is_better(HalfedgeId g, HalfedgeId h) const {
+    const double of_g = steepness(Tin::triangle_of(g)), of_h = steepness(Tin::triangle_of(h));
+    if (of_g != of_h) return of_g > of_h;
+    return mesh_.point(mesh_.target(Tin::next(g))) < mesh_.point(mesh_.target(Tin::next(h)));
   }
 
   /// Rounding may have left points before a vertex a little lower.
@@ -154,7 +183,7 @@ class Walk {
       return true;
     }
     const VertexId end = graph_.low_end(side_);
-    if (mesh_.on_rim(side_)) {
+    if (mesh_.on_rim(side_) && graph_.fall(side_) == Fall::Out) {
       path_.sink = SinkId{graph_.rim_sink[end.index()]};
       return false;
     }
