@@ -2,12 +2,12 @@
 //
 // 1. Points: the height of the only one at the vertex; where several share it, the duplicate rule.
 // 2. Hard lines, but rings of lakes: at a vertex of theirs the height given there, on an edge the height
-// between its ends. If all
-//    agree, that is the height (a given one rather than one between); else the crossing rule says.
+//    between its ends. If all agree, that is the height (a point's, if it agrees as well, then a given one
+//    rather than one between); else the crossing rule says.
 // 3. Heights between ends are rounded, and belong to a place that noding may have moved by up to a pixel. Two
 //    heights agree if they differ by no more than that can explain, or, both given, not at all.
 // 4. Each height that disagrees with the first one, and a point's that disagrees with the lines', is a
-// conflict. Means are sums of sorted heights, so they do not depend on the order of input.
+//    conflict. Means are sums of sorted heights, so they do not depend on the order of input.
 #include "heights.hpp"
 
 #include "base/ordered_blocks.hpp"
@@ -221,6 +221,10 @@ class Resolver {
     if (claims.empty()) return take_lakes(v, passages);
     const bool is_point = v < drawing_.vertices.point_count;
     const Claim point{.z = heights_.z[v], .slack = 0, .passage = {}};
+    const bool point_agrees = is_point && std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) {
+                                return agree(point, claim);
+                              });
+    if (point_agrees) return;
     const Claim& first = claims.front();
     set(v, settle(v, claims));
     for (const Claim& claim : claims) {
@@ -228,9 +232,7 @@ class Resolver {
       report(found, claim.given() && first.given() ? Conflict::Kind::LineVertex : Conflict::Kind::Crossing, v,
              first.z, claim.z, describe(first), describe(claim));
     }
-    const bool all_agree =
-        std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) { return agree(point, claim); });
-    if (is_point && !all_agree) {
+    if (is_point) {
       report(found, Conflict::Kind::PointOnLine, v, point.z, first.z, describe_point(survey_, first_point(v)),
              describe(first));
     }

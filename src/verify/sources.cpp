@@ -316,7 +316,16 @@ class SourceChecker {
   struct Piece {
     Point2 a, b;
     std::optional<Interval> z;  ///< at a and b
+    [[nodiscard]] Point2 at(double t) const { return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t}; }
   };
+
+  /// One place may be where the line touches the rim of the surface; two are not.
+  [[nodiscard]] bool is_over_surface(const Piece& piece, const Interval& gap) const {
+    const auto places = {0.382, 0.5, 0.618};
+    return std::count_if(places.begin(), places.end(), [&](double share) {
+             return on_surface(piece.at(gap.from + (gap.to - gap.from) * share));
+           }) > 1;
+  }
 
   /// A hard line says its height where constraint edges of it end.
   void say_height(const Piece& piece, Index v) {
@@ -375,12 +384,9 @@ class SourceChecker {
         ++pieces;
         bool ends = false;
         for (const Interval& gap : gaps_of(piece, line.kind)) {
-          const double middle = (gap.from + gap.to) / 2;
-          const Point2 p = {piece.a.x + (piece.b.x - piece.a.x) * middle,
-                            piece.a.y + (piece.b.y - piece.a.y) * middle};
-          if (on_surface(p) || !sources_.is_cut) {
-            faults.add(
-                fmt::format("{} from {} to {}, near {}", line.name, text(piece.a), text(piece.b), text(p)));
+          if (is_over_surface(piece, gap) || !sources_.is_cut) {
+            faults.add(fmt::format("{} from {} to {}, near {}", line.name, text(piece.a), text(piece.b),
+                                   text(piece.at((gap.from + gap.to) / 2))));
           } else {
             ends = true;
           }
