@@ -85,6 +85,9 @@ struct FlowGraph {
   LargeVector<std::uint32_t> rim_sink;  ///< by vertex on the rim: of what leaves there
   std::vector<Sink> sinks;
   RawVector<std::uint32_t> sink_of_node;
+  /// Split sides below a high corner whose line meets the ground of a channel at its very border, as where it
+  /// comes exactly to a vertex; in no order.
+  std::vector<HalfedgeId> touching;
   RawVector<double> ground;  ///< by node: the area of the ground whose water comes to it first
 
   FlowGraph(const Tin& t, const Progress& progress) : tin(t), mesh(t, progress) {}

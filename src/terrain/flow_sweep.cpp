@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace thalweg {
 
@@ -37,7 +39,7 @@ struct Batch {
   // Found: the part of the strip that came over each side, as shares of its way.
   std::array<Column, 2> begin, end;
   /// A sum: 1, 2 if there is such a part of number 0, 1; 4, 8 if that begins at the side's origin; 16 if the
-  /// strip holds the middle.
+  /// strip holds the middle, 32 if it begins there, at a high corner's line.
   Column found;
   Column ground;  ///< area of the strip in the triangle
   // Between.
@@ -97,7 +99,8 @@ void part(Batch& batch) {
     const double first_1 = batch.begin[1][i] == 0 ? part_1 : 0.0;
     const double at_end = batch.high[i] == 1 ? batch.before[i] : 0.0;
     const double middle = batch.low[i] <= batch.middle[i] ? std::max(above, at_end) : 0.0;
-    batch.found[i] = part_0 + 2 * part_1 + 4 * first_0 + 8 * first_1 + 16 * middle;
+    const double begins = batch.low[i] == batch.middle[i] ? 1 - batch.low_corner[i] : 0.0;
+    batch.found[i] = part_0 + 2 * part_1 + 4 * first_0 + 8 * first_1 + 16 * middle + 32 * begins;
   }
 }
 
@@ -132,6 +135,8 @@ class Sweep {
       next = stop;
     }
   }
+
+  [[nodiscard]] std::vector<HalfedgeId>& touching() { return touching_; }
 
  private:
   /// Water that comes to a node, and runs over `side` out of its triangle.
@@ -172,7 +177,8 @@ class Sweep {
     const std::size_t low = shape.corner_is_low, split = shape.split;
     graph_.ground[node] += batch_.ground[i];
     const Visit visit{first, node, static_cast<unsigned>(static_cast<int>(batch_.found[i])), i};
-    set_target(stream.side.index(), node, visit.found >> 4U);
+    set_target(stream.side.index(), node, visit.found >> 4U & 1U);
+    if (visit.found >> 5U != 0) touching_.push_back(stream.side);
     const std::array<std::size_t, 2> over_0 = {kNextSide[side], split}, over_1 = {kPreviousSide[side], split};
     come_over(over_0[low], visit, 0);
     come_over(over_1[low], visit, 1);
@@ -200,6 +206,7 @@ class Sweep {
   std::array<FlowNode*, 2> targets_;  // so that one is set, or not, without a jump
   RawVector<Stream> streams_;
   std::size_t count_ = 0;
+  std::vector<HalfedgeId> touching_;
   Batch batch_{};
 };
 
@@ -207,10 +214,13 @@ class Sweep {
 
 void sweep_grounds(FlowGraph& graph, const Progress& progress) {
   graph.ground.resize(graph.node_count());
+  std::vector<std::vector<HalfedgeId>> touching(graph.node_count() / kBlock + 1);
   for_each_block(graph.node_count(), kBlock, progress, [&](std::size_t begin, std::size_t end) {
     Sweep sweep(graph);
     for (std::size_t i = begin; i < end; i += kSweptAtOnce) sweep.run(i, std::min(end, i + kSweptAtOnce));
+    touching[begin / kBlock] = std::move(sweep.touching());
   });
+  for (const auto& part : touching) graph.touching.insert(graph.touching.end(), part.begin(), part.end());
   for (std::size_t t = 0; t < graph.mesh.triangle_count(); ++t) {
     if (!graph.level(TriangleId{t})) continue;
     graph.ground[graph.node_of(graph.low_corner(TriangleId{t}))] += graph.strips[t].area;

@@ -37,6 +37,7 @@ class Accumulator {
     for_each_block(count, kBlock, progress, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) below_[i] = below(static_cast<FlowNode>(i));
     });
+    for (const HalfedgeId side : graph_.touching) pass_end(side);
     for (const FlowNode next : below_) {
       if (next != kNoNode) ++waiting_[next];
     }
@@ -49,7 +50,7 @@ class Accumulator {
         settle(at);
         waiting_[at] = kSettled;
         if (next == kNoNode) break;
-        pass_on(at, past_end(at, next));
+        pass_on(at, next);
         if (--waiting_[next] != 0) break;
         at = next;
       }
@@ -80,13 +81,15 @@ class Accumulator {
   }
 
   /// What comes across triangles exactly to the vertex at which a channel ends is not in the channel.
-  [[nodiscard]] FlowNode past_end(FlowNode from, FlowNode to) const {
-    if (!(area_[from] > 0) || !graph_.is_vertex(from) || graph_.is_vertex(to)) return to;
-    const VertexId v = graph_.vertex_of(from);
-    const Channel& channel = graph_.channel_of(to);
-    if (graph_.step[v.index()].kind != VertexStep::Kind::Cross || channel.on_rim) return to;
+  void pass_end(HalfedgeId side) {
+    const VertexId v = graph_.mesh.target(Tin::next(side));
+    const VertexStep& step = graph_.step[v.index()];
+    const FlowNode from = graph_.node_of(v), to = below_[from];
+    if (step.kind != VertexStep::Kind::Cross || step.edge != side || to == kNoNode || graph_.is_vertex(to))
+      return;
+    const VertexId low = graph_.channel_of(to).low;
     const FlowPath leg = flow_.leg_from(graph_.mesh.given(v));
-    return leg.points.back().xy == graph_.mesh.point(channel.low) ? graph_.node_of(channel.low) : to;
+    if (leg.points.back().xy == graph_.mesh.point(low)) below_[from] = graph_.node_of(low);
   }
 
   void settle(FlowNode node) {
