@@ -101,9 +101,7 @@ struct ReportHigherOrder {
 struct ReportCriterion {
   std::string name, unit;
   std::string direction;  ///< "min" or "max"
-  double delaunay = 0;
-  double result = 0;
-  double bound = 0;
+  double delaunay = 0, result = 0, bound = 0;
   bool optimal = false;
   std::string method;
 };
