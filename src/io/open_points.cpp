@@ -50,16 +50,17 @@ std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const ReadOpti
   if (is_las(spec)) return open_las(spec);
   if (is_mesh(spec)) return open_mesh(spec, progress);
   if (is_text(spec)) return open_text(spec, options);
-  GDALDatasetUniquePtr dataset = open_dataset(spec.path, LayerUse::Points);
-  if (spec.layer.empty() && is_tin(*dataset)) {
-    return open_layer_points({spec.path, "vertices"}, std::move(dataset));
+  OpenedDataset opened = open_dataset(spec.path, LayerUse::Points);
+  GDALDataset& dataset = *opened.dataset;
+  if (spec.layer.empty() && is_tin(dataset)) {
+    return open_layer_points({spec.path, "vertices"}, std::move(opened));
   }
-  const bool has_raster = dataset->GetRasterCount() > 0;
-  if (!spec.layer.empty() || has_point_layer(*dataset) || (dataset->GetLayerCount() > 0 && !has_raster)) {
-    return open_layer_points(spec, std::move(dataset));
+  const bool has_raster = dataset.GetRasterCount() > 0;
+  if (!spec.layer.empty() || has_point_layer(dataset) || (dataset.GetLayerCount() > 0 && !has_raster)) {
+    return open_layer_points(spec, std::move(opened));
   }
-  if (has_raster) return open_raster(spec, std::move(dataset));
-  const std::string parts = list_subdatasets(*dataset);
+  if (has_raster) return open_raster(spec, std::move(opened));
+  const std::string parts = list_subdatasets(dataset);
   if (!parts.empty())
     throw Error(ErrorCode::Usage, spec.path + " holds several rasters; name one of: " + parts);
   throw Error(ErrorCode::EmptyInput, spec.path + " holds neither layers nor rasters");
