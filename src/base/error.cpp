@@ -7,6 +7,20 @@
 
 namespace thalweg {
 
+namespace {
+
+std::string without_zeros(std::string text) {
+  for (std::size_t at = text.find('\0'); at != std::string::npos; at = text.find('\0', at)) {
+    text.replace(at, 1, "\\x00");
+  }
+  return text;
+}
+
+}  // namespace
+
+Error::Error(ErrorCode code, const std::string& message)
+    : std::runtime_error(without_zeros(message)), code_(code) {}
+
 std::string_view error_name(ErrorCode code) {
   switch (code) {
     case ErrorCode::Usage:

@@ -103,6 +103,7 @@ class StlReader {
     scanner.next_line();
     std::vector<VertexId> corners;
     std::size_t words = 0;
+    bool solid_ends = false;
     for (std::string_view word = scanner.word_anywhere(); !word.empty(); word = scanner.word_anywhere()) {
       if (words++ % kProgressStep == 0) progress_.advance(scanner.fraction());
       if (word == "vertex") {
@@ -112,9 +113,13 @@ class StlReader {
         if (corners.size() != 3) scanner.fail(ErrorCode::WrongGeometry, "the facet is no triangle");
         tin_.triangles.push_back({corners[0], corners[1], corners[2]});
         corners.clear();
+      } else if (word == "solid" || word == "endsolid") {
+        solid_ends = word == "endsolid";
+        scanner.rest_of_line();  // a name, of any words
       }
     }
     if (!corners.empty()) scanner.fail(ErrorCode::BadFormat, "the last facet has no end");
+    if (!solid_ends) scanner.fail(ErrorCode::BadFormat, "the file ends before endsolid; is it cut off?");
   }
 
   VertexId vertex(const std::array<double, 3>& p) {

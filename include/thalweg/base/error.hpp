@@ -41,7 +41,8 @@ std::string_view error_name(ErrorCode code);
 /// `what()` is one line: what, where (file, layer, feature, row), the limit, and what to do.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  /// Zero bytes of the message become \x00, for what() ends at the first.
+  Error(ErrorCode code, const std::string& message);
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }
 
  private:
