@@ -42,7 +42,7 @@ std::size_t next_count(TextScanner& scanner, const char* what) {
   const std::string_view word = next_word(scanner, what);
   const std::int64_t value = parse_integer(word).value_or(-1);
   if (value < 0 || value >= Id<void>::kInvalid) {
-    scanner.fail(ErrorCode::BadFormat, "'" + std::string(word.substr(0, 40)) + "' is no " + what);
+    scanner.fail(ErrorCode::BadFormat, std::string("'").append(word.substr(0, 40)) + "' is no " + what);
   }
   return static_cast<std::size_t>(value);
 }
