@@ -22,6 +22,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -147,6 +148,11 @@ std::optional<OGRSpatialReference> with_heights_in(const OGRSpatialReference& pl
   if (compound.SetCompoundCS(both.c_str(), &plane, &heights) != OGRERR_NONE) return std::nullopt;
   compound.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   return compound;
+}
+
+bool means_none(const OGRSpatialReference& reference) {
+  const char* const name = reference.GetName();  // null of one that is empty
+  return name != nullptr && std::string_view(name).starts_with("Undefined");
 }
 
 OGRSpatialReference horizontal_part(const OGRSpatialReference& reference) {

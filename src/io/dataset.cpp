@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace thalweg {
@@ -69,13 +71,20 @@ std::string name_of_geometry(OGRwkbGeometryType type) {
   return wkbFlatten(type) == wkbNone ? "no geometry" : OGRGeometryTypeToName(type);
 }
 
-GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use) {
+OpenedDataset open_dataset(const std::string& path, LayerUse use) {
   check_netcdf_length(path);
   GdalSession session;
   const unsigned kinds = use == LayerUse::Points ? GDAL_OF_RASTER | GDAL_OF_VECTOR : GDAL_OF_VECTOR;
   GDALDatasetUniquePtr dataset(
       GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR));
-  if (dataset) return dataset;
+  if (dataset) {
+    // Only a dataset's errors count: drivers that find a CRS in another way make warnings of them.
+    const std::string errors = session.reason();
+    const bool about_crs = errors.find("proj_create") != std::string::npos;
+    // GeoJSON and its kin: WGS 84.
+    const bool json = std::string_view(dataset->GetDriverName()).find("JSON") != std::string_view::npos;
+    return {std::move(dataset), about_crs ? errors : "", json};
+  }
   VSIStatBufL stat;
   const bool names_a_file = path.find(':') == std::string::npos || path.front() == '/';
   if (names_a_file && VSIStatExL(path.c_str(), &stat, VSI_STAT_EXISTS_FLAG) != 0) {
@@ -86,6 +95,11 @@ GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use) {
       ErrorCode::Unreadable,
       path + " cannot be opened" + session.reason() +
           (is_csv ? "; lines in a .csv stand as WKT in a column of that name, beside another column" : ""));
+}
+
+bool lacks_declared_crs(const OpenedDataset& opened, const OGRSpatialReference* given) {
+  if (given != nullptr && given->IsEmpty()) return true;
+  return !opened.crs_errors.empty() && (given == nullptr || opened.has_default_crs);
 }
 
 OGRLayer& choose_layer(GDALDataset& dataset, const SourceSpec& source, LayerUse use) {

@@ -17,10 +17,22 @@ enum class LayerUse {
   Lines  ///< or polygons
 };
 
+/// A dataset, and what opening it told about its CRS.
+struct OpenedDataset {
+  GDALDatasetUniquePtr dataset;
+  std::string
+      crs_errors;  ///< " (GDAL's words)" about one that could not be resolved; empty if there are none
+  bool has_default_crs = false;  ///< the driver takes a CRS where a file's own cannot be resolved
+};
+
 /// Opens a file, virtual path or connection for reading, as layers, or, for points, as a raster too.
 /// Throws: Error{NotFound}, Error{Unreadable} in GDAL's words, Error{BadFormat} for a NetCDF file that is cut
 /// off.
-GDALDatasetUniquePtr open_dataset(const std::string& path, LayerUse use);
+OpenedDataset open_dataset(const std::string& path, LayerUse use);
+
+/// Whether the file declares a CRS that GDAL could not resolve, and gave this in its place, as far as GDAL
+/// tells: where it gives no sign, the file passes for one without a CRS.
+bool lacks_declared_crs(const OpenedDataset& opened, const OGRSpatialReference* given);
 
 /// The layer that the source names, or the only one that can hold what is wanted.
 /// Throws: Error{NotFound} if it is not there, Error{WrongGeometry} if it or none can hold what is wanted,

@@ -203,12 +203,23 @@ std::vector<TinFormat> vector_formats() {
 
 }  // namespace
 
+void refuse_repeated_keys(const std::vector<std::string>& pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_word(key_of(pairs[i]), key_of(pairs[j]))) continue;
+      throw Error(ErrorCode::Usage, "--co gives " + std::string(key_of(pairs[i])) + " twice, as '" +
+                                        pairs[j] + "' and '" + pairs[i] + "'; give it once");
+    }
+  }
+}
+
 CreationOptions::CreationOptions(const std::vector<std::string>& pairs, const FormatInfo& format) {
   for (const std::string& option : format.creation_options) {
     options_.push_back({std::string(key_of(option)), std::string(values_of(option))});
     // The default of a choice is its first value, that of a list the whole list.
     options_.back().value = split(options_.back().value, '|').front();
   }
+  refuse_repeated_keys(pairs);
   for (const std::string& pair : pairs) {
     const auto known = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
       return same_word(option.key, key_of(pair));

@@ -2,6 +2,8 @@
 // extension (GTiff before COG).
 #include "io/gdal_formats.hpp"
 
+#include "io/tin_format.hpp"
+
 #include <thalweg/base/error.hpp>
 
 #include <cpl_minixml.h>
@@ -69,6 +71,7 @@ GDALDriver* find_output_driver(const std::string& path, const std::string& forma
 }
 
 DriverOptions sort_options(GDALDriver& driver, const std::vector<std::string>& options, DriverUse use) {
+  refuse_repeated_keys(options);
   DriverOptions sorted;
   for (const std::string& option : options) {
     const std::size_t equals = std::min(option.find('='), option.size());

@@ -70,26 +70,21 @@ std::optional<EdgeKind> to_kind(std::string_view word) {
 
 class LayerLines : public LayerReader {
  public:
-  LayerLines(const LineSource& source, GDALDatasetUniquePtr dataset)
-      : LayerReader(source.source, std::move(dataset), LayerUse::Lines), kind_(source.kind) {}
+  LayerLines(const LineSource& source, OpenedDataset opened)
+      : LayerReader(source.source, std::move(opened), LayerUse::Lines), kind_(source.kind) {}
 
   void read(ReadContext& run, PlaneTransform& transform) override {
     if (!run.options.line_z_field.empty()) z_field_ = find_field(run.options.line_z_field, run.line_z_field);
     if (!run.options.kind_field.empty() && !is_area(kind_)) {
       kind_field_ = find_field(run.options.kind_field, run.kind_field);
     }
-    for_each_feature(run, [&](const OGRFeature& feature) {
+    for_each_feature(run, [&](const OGRFeature& feature, const OGRGeometry& geometry) {
       lines_.clear();
-      const OGRGeometry* geometry = feature.GetGeometryRef();
-      if (geometry == nullptr || geometry->IsEmpty()) {
-        ++empty_;
-        return;
-      }
-      take_apart(feature, *geometry);
+      take_apart(feature, geometry);
       for (SurveyLine& line : lines_) transform.apply(line.xy, line.z);
       keep_lines(run);
     });
-    report(run);
+    note_short_lines(run, short_);
   }
 
  private:
@@ -188,17 +183,10 @@ class LayerLines : public LayerReader {
     return std::any_of(lines_.begin(), lines_.end(), touches) || is_inside({box.x_min, box.y_min}, lines_);
   }
 
-  void report(ReadContext& run) const {
-    if (empty_ > 0)
-      run.note(name() + ": " + std::to_string(empty_) + " features without geometry were skipped");
-    note_short_lines(run, short_);
-  }
-
   EdgeKind kind_;
   std::optional<int> z_field_;
   std::optional<int> kind_field_;
   std::vector<SurveyLine> lines_;  // of the present feature
-  std::size_t empty_ = 0;
   std::size_t short_ = 0;
 };
 

@@ -15,26 +15,18 @@ namespace {
 
 class LayerPoints : public LayerReader {
  public:
-  LayerPoints(const SourceSpec& spec, GDALDatasetUniquePtr dataset)
-      : LayerReader(spec, std::move(dataset), LayerUse::Points) {}
+  LayerPoints(const SourceSpec& spec, OpenedDataset opened)
+      : LayerReader(spec, std::move(opened), LayerUse::Points) {}
 
   void read(ReadContext& run, PlaneTransform& transform) override {
     heights_ = run.options.heights;
     if (!run.options.z_field.empty()) z_field_ = find_field(run.options.z_field, run.z_field);
     PointCollector points(run, transform);
-    std::size_t empty = 0;
-    for_each_feature(run, [&](const OGRFeature& feature) {
-      const OGRGeometry* geometry = feature.GetGeometryRef();
-      if (geometry == nullptr || geometry->IsEmpty()) {
-        ++empty;
-        return;
-      }
+    for_each_feature(run, [&](const OGRFeature& feature, const OGRGeometry& geometry) {
       const std::optional<double> z = z_field_ ? number_in(feature, *z_field_) : std::nullopt;
-      add(feature, *geometry, z, points);
+      add(feature, geometry, z, points);
     });
     points.finish();
-    if (empty > 0)
-      run.note(name() + ": " + std::to_string(empty) + " features without geometry were skipped");
   }
 
  private:
@@ -76,8 +68,8 @@ class LayerPoints : public LayerReader {
 
 }  // namespace
 
-std::unique_ptr<SourceReader> open_layer_points(const SourceSpec& spec, GDALDatasetUniquePtr dataset) {
-  return std::make_unique<LayerPoints>(spec, std::move(dataset));
+std::unique_ptr<SourceReader> open_layer_points(const SourceSpec& spec, OpenedDataset opened) {
+  return std::make_unique<LayerPoints>(spec, std::move(opened));
 }
 
 }  // namespace thalweg

@@ -1,6 +1,7 @@
 // Features of a layer, for the readers of points and of lines.
 #include "io/layer_reader.hpp"
 
+#include "io/spatial_reference.hpp"
 #include "io/text_format.hpp"
 
 #include <thalweg/base/error.hpp>
@@ -25,18 +26,20 @@ bool has_swapped_axes(const OGRSpatialReference& reference) {
 
 }  // namespace
 
-LayerReader::LayerReader(const SourceSpec& spec, GDALDatasetUniquePtr dataset, LayerUse use)
-    : SourceReader(spec), dataset_(std::move(dataset)), layer_(&choose_layer(*dataset_, spec, use)) {
+LayerReader::LayerReader(const SourceSpec& spec, OpenedDataset opened, LayerUse use)
+    : SourceReader(spec), layer_(&choose_layer(*opened.dataset, spec, use)) {
   // A file's only layer needs no name in messages.
-  if (dataset_->GetLayerCount() > 1) set_layer(layer_->GetName());
-  // GeoPackage has two names for "none".
-  if (const OGRSpatialReference* reference = layer_->GetSpatialRef();
-      reference != nullptr && std::string_view(reference->GetName()).rfind("Undefined", 0) != 0) {
+  if (opened.dataset->GetLayerCount() > 1) set_layer(layer_->GetName());
+  const OGRSpatialReference* const reference = layer_->GetSpatialRef();
+  if (lacks_declared_crs(opened, reference)) {
+    set_unresolved_crs(opened.crs_errors);
+  } else if (reference != nullptr && !means_none(*reference)) {
     axes_are_swapped_ = has_swapped_axes(*reference);
     OGRSpatialReference traditional(*reference);
     traditional.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     set_reference(traditional);
   }
+  dataset_ = std::move(opened.dataset);
 }
 
 void LayerReader::start(ReadContext& run) {
@@ -72,9 +75,16 @@ void LayerReader::finish(ReadContext& run, const GdalSession& session) const {
     throw Error(ErrorCode::Unreadable, name() + " cannot be read to its end: it breaks after feature " +
                                            std::to_string(features_read_) + session.reason());
   }
-  if (features_read_ > 0) return;
-  if (!filtered_) throw Error(ErrorCode::EmptyInput, name() + " holds no features");
-  run.note(name() + ": no feature meets the condition " + run.options.where);
+  if (!filtered_ && features_read_ == features_empty_) {
+    throw Error(ErrorCode::EmptyInput,
+                name() +
+                    (features_read_ == 0 ? " holds no features"
+                                         : " holds no geometry: none of its features has one") +
+                    "; name another layer, or leave it out");
+  }
+  if (features_read_ == 0) run.note(name() + ": no feature meets the condition " + run.options.where);
+  if (features_empty_ == 0) return;
+  run.note(name() + ": " + std::to_string(features_empty_) + " features without geometry were skipped");
 }
 
 std::optional<int> LayerReader::find_field(const std::string& field, OptionUse& use) {

@@ -20,17 +20,20 @@ namespace thalweg {
 class LayerReader : public SourceReader {
  public:
   /// Throws: as choose_layer.
-  LayerReader(const SourceSpec& spec, GDALDatasetUniquePtr dataset, LayerUse use);
+  LayerReader(const SourceSpec& spec, OpenedDataset opened, LayerUse use);
 
  protected:
-  /// Calls `work(feature)` for each feature that meets the run's condition.
-  /// Throws: Error{EmptyInput} if there is none at all; Error{Unreadable} if reading breaks off.
+  /// Calls `work(feature, geometry)` for each feature that meets the run's condition and has a geometry that
+  /// is not empty. Throws: Error{EmptyInput} if the layer has none; Error{Unreadable} if reading breaks off.
   template <class Work>
   void for_each_feature(ReadContext& run, const Work& work) {
     GdalSession session;
     start(run);
     while (const std::unique_ptr<OGRFeature> feature{layer_->GetNextFeature()}) {
-      work(*feature);
+      const OGRGeometry* const geometry = feature->GetGeometryRef();
+      const bool empty = geometry == nullptr || geometry->IsEmpty();
+      if (empty) ++features_empty_;
+      if (!empty) work(*feature, *geometry);
       count(run);
     }
     finish(run, session);
@@ -63,9 +66,10 @@ class LayerReader : public SourceReader {
   bool axes_are_swapped_ = false;
   double features_expected_ = 0;
   std::size_t features_read_ = 0;
+  std::size_t features_empty_ = 0;
 };
 
 /// Throws: as choose_layer.
-std::unique_ptr<SourceReader> open_layer_points(const SourceSpec& spec, GDALDatasetUniquePtr dataset);
+std::unique_ptr<SourceReader> open_layer_points(const SourceSpec& spec, OpenedDataset opened);
 
 }  // namespace thalweg

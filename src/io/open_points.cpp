@@ -1,4 +1,5 @@
 // What kind of source of points a file is.
+#include "base/lower_case.hpp"
 #include "io/dataset.hpp"
 #include "io/gdal_session.hpp"
 #include "io/las_points.hpp"
@@ -10,6 +11,7 @@
 
 #include <thalweg/base/error.hpp>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,6 +32,16 @@ bool is_tin(GDALDataset& dataset) {
   return dataset.GetLayerByName("triangles") != nullptr && dataset.GetLayerByName("vertices") != nullptr;
 }
 
+/// Text, LAS and meshes have one layer, which GDAL and QGIS name as the file. Throws: Error{NotFound}.
+void refuse_other_layer(const SourceSpec& spec) {
+  if (spec.layer.empty()) return;
+  std::filesystem::path path(spec.path);
+  if (lower(path.extension().string()) == ".gz") path = path.stem();
+  if (spec.layer == path.stem()) return;
+  throw Error(ErrorCode::NotFound,
+              spec.path + " has no layer " + spec.layer + "; it has one, and needs no |layername=");
+}
+
 std::string list_subdatasets(GDALDataset& dataset) {
   std::string list;
   char** const entries = dataset.GetMetadata("SUBDATASETS");
@@ -47,19 +59,22 @@ std::string list_subdatasets(GDALDataset& dataset) {
 
 std::unique_ptr<SourceReader> open_points(const SourceSpec& spec, const ReadOptions& options,
                                           const Progress& progress) {
-  if (is_las(spec)) return open_las(spec);
-  if (is_mesh(spec)) return open_mesh(spec, progress);
-  if (is_text(spec)) return open_text(spec, options);
-  GDALDatasetUniquePtr dataset = open_dataset(spec.path, LayerUse::Points);
-  if (spec.layer.empty() && is_tin(*dataset)) {
-    return open_layer_points({spec.path, "vertices"}, std::move(dataset));
+  const bool las = is_las(spec), mesh = !las && is_mesh(spec), text = !las && !mesh && is_text(spec);
+  if (las || mesh || text) refuse_other_layer(spec);
+  if (las) return open_las(spec);
+  if (mesh) return open_mesh(spec, progress);
+  if (text) return open_text(spec, options);
+  OpenedDataset opened = open_dataset(spec.path, LayerUse::Points);
+  GDALDataset& dataset = *opened.dataset;
+  if (spec.layer.empty() && is_tin(dataset)) {
+    return open_layer_points({spec.path, "vertices"}, std::move(opened));
   }
-  const bool has_raster = dataset->GetRasterCount() > 0;
-  if (!spec.layer.empty() || has_point_layer(*dataset) || (dataset->GetLayerCount() > 0 && !has_raster)) {
-    return open_layer_points(spec, std::move(dataset));
+  const bool has_raster = dataset.GetRasterCount() > 0;
+  if (!spec.layer.empty() || has_point_layer(dataset) || (dataset.GetLayerCount() > 0 && !has_raster)) {
+    return open_layer_points(spec, std::move(opened));
   }
-  if (has_raster) return open_raster(spec, std::move(dataset));
-  const std::string parts = list_subdatasets(*dataset);
+  if (has_raster) return open_raster(spec, std::move(opened));
+  const std::string parts = list_subdatasets(dataset);
   if (!parts.empty())
     throw Error(ErrorCode::Usage, spec.path + " holds several rasters; name one of: " + parts);
   throw Error(ErrorCode::EmptyInput, spec.path + " holds neither layers nor rasters");

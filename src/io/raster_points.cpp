@@ -28,8 +28,8 @@ namespace {
 
 class RasterPoints : public SourceReader {
  public:
-  RasterPoints(const SourceSpec& spec, GDALDatasetUniquePtr dataset)
-      : SourceReader(spec), dataset_(std::move(dataset)), band_(dataset_->GetRasterBand(1)) {
+  RasterPoints(const SourceSpec& spec, OpenedDataset opened)
+      : SourceReader(spec), dataset_(std::move(opened.dataset)), band_(dataset_->GetRasterBand(1)) {
     GdalSession session;
     if (dataset_->GetGeoTransform(frame_.geotransform.data()) != CE_None) {
       throw Error(ErrorCode::Unsupported,
@@ -43,7 +43,12 @@ class RasterPoints : public SourceReader {
     if (GDALDataTypeIsComplex(band_->GetRasterDataType()) != 0) {
       throw Error(ErrorCode::Unsupported, name() + " holds complex numbers, not heights");
     }
-    if (const OGRSpatialReference* reference = dataset_->GetSpatialRef()) set_reference(*reference);
+    const OGRSpatialReference* const reference = dataset_->GetSpatialRef();
+    if (lacks_declared_crs(opened, reference)) {
+      set_unresolved_crs(opened.crs_errors);
+    } else if (reference != nullptr) {
+      set_reference(*reference);
+    }
     if (const std::optional<double> unit = metres_of_unit(band_->GetUnitType())) set_vertical_unit(*unit);
   }
 
@@ -233,8 +238,8 @@ class RasterPoints : public SourceReader {
 
 }  // namespace
 
-std::unique_ptr<SourceReader> open_raster(const SourceSpec& spec, GDALDatasetUniquePtr dataset) {
-  return std::make_unique<RasterPoints>(spec, std::move(dataset));
+std::unique_ptr<SourceReader> open_raster(const SourceSpec& spec, OpenedDataset opened) {
+  return std::make_unique<RasterPoints>(spec, std::move(opened));
 }
 
 }  // namespace thalweg

@@ -2,9 +2,8 @@
 
 /// Points from elevation rasters.
 
+#include "io/dataset.hpp"
 #include "io/source_reader.hpp"
-
-#include <gdal_priv.h>
 
 #include <memory>
 
@@ -12,6 +11,6 @@ namespace thalweg {
 
 /// Throws: Error{Unsupported} for rasters without georeference, with rotated control points, or of complex
 /// numbers.
-std::unique_ptr<SourceReader> open_raster(const SourceSpec& spec, GDALDatasetUniquePtr dataset);
+std::unique_ptr<SourceReader> open_raster(const SourceSpec& spec, OpenedDataset opened);
 
 }  // namespace thalweg

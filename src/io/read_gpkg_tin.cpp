@@ -242,7 +242,7 @@ class GpkgReader {
 
   void read_crs(OGRLayer& layer) {
     const OGRSpatialReference* const reference = layer.GetSpatialRef();
-    if (reference == nullptr || std::string(reference->GetName()).rfind("Undefined", 0) == 0) return;
+    if (reference == nullptr || means_none(*reference)) return;
     const CrsInfo info = describe_reference(*reference, path_);
     tin_.crs = info.authority.empty() ? info.wkt : info.authority;
   }

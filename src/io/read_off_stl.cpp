@@ -42,7 +42,7 @@ std::size_t next_count(TextScanner& scanner, const char* what) {
   const std::string_view word = next_word(scanner, what);
   const std::int64_t value = parse_integer(word).value_or(-1);
   if (value < 0 || value >= Id<void>::kInvalid) {
-    scanner.fail(ErrorCode::BadFormat, "'" + std::string(word.substr(0, 40)) + "' is no " + what);
+    scanner.fail(ErrorCode::BadFormat, std::string("'").append(word.substr(0, 40)) + "' is no " + what);
   }
   return static_cast<std::size_t>(value);
 }
@@ -103,6 +103,7 @@ class StlReader {
     scanner.next_line();
     std::vector<VertexId> corners;
     std::size_t words = 0;
+    bool solid_ends = false;
     for (std::string_view word = scanner.word_anywhere(); !word.empty(); word = scanner.word_anywhere()) {
       if (words++ % kProgressStep == 0) progress_.advance(scanner.fraction());
       if (word == "vertex") {
@@ -112,9 +113,13 @@ class StlReader {
         if (corners.size() != 3) scanner.fail(ErrorCode::WrongGeometry, "the facet is no triangle");
         tin_.triangles.push_back({corners[0], corners[1], corners[2]});
         corners.clear();
+      } else if (word == "solid" || word == "endsolid") {
+        solid_ends = word == "endsolid";
+        scanner.rest_of_line();  // a name, of any words
       }
     }
     if (!corners.empty()) scanner.fail(ErrorCode::BadFormat, "the last facet has no end");
+    if (!solid_ends) scanner.fail(ErrorCode::BadFormat, "the file ends before endsolid; is it cut off?");
   }
 
   VertexId vertex(const std::array<double, 3>& p) {

@@ -282,6 +282,7 @@ class UgridReader {
 }  // namespace
 
 bool holds_ugrid_mesh(const std::string& path) {
+  check_netcdf_length(path);
   try {
     const NetcdfFile file(path, path, NetcdfFile::Mode::Read);
     int count = 0;

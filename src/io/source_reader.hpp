@@ -68,6 +68,8 @@ class SourceReader {
   [[nodiscard]] const SourceSpec& spec() const { return spec_; }
   /// The CRS that the source declares; empty if it declares none.
   [[nodiscard]] const OGRSpatialReference& reference() const { return reference_; }
+  /// " (GDAL's words)" or "" if the source declares a CRS that cannot be resolved.
+  [[nodiscard]] const std::optional<std::string>& unresolved_crs() const { return unresolved_crs_; }
   /// The unit of heights, where the source itself tells it apart from its CRS.
   [[nodiscard]] std::optional<double> vertical_metres_per_unit() const { return vertical_metres_per_unit_; }
 
@@ -88,11 +90,13 @@ class SourceReader {
   }
   void set_layer(const std::string& name) { spec_.layer = name; }
   void set_reference(const OGRSpatialReference& reference) { reference_ = reference; }
+  void set_unresolved_crs(const std::string& reason) { unresolved_crs_ = reason; }
   void set_vertical_unit(double metres_per_unit) { vertical_metres_per_unit_ = metres_per_unit; }
 
  private:
   SourceSpec spec_;
   OGRSpatialReference reference_;
+  std::optional<std::string> unresolved_crs_;
   std::optional<double> vertical_metres_per_unit_;
 };
 

@@ -25,6 +25,9 @@ std::optional<OGRSpatialReference> with_heights_in(const OGRSpatialReference& pl
 /// A reference without its vertical part.
 OGRSpatialReference horizontal_part(const OGRSpatialReference& reference);
 
+/// Whether a layer without a CRS says so by this reference: GeoPackage has two names for "none".
+bool means_none(const OGRSpatialReference& reference);
+
 /// What a reference says; an empty one is the unknown CRS.
 /// Throws: Error{BadCrs} naming `origin`, if the CRS has no plane.
 CrsInfo describe_reference(const OGRSpatialReference& reference, const std::string& origin);

@@ -69,6 +69,9 @@ struct TinFormat {
 
 std::span<const TinFormat> tin_format_table();
 
+/// Throws: Error{Usage} where two creation options K=V have the same key, in any case.
+void refuse_repeated_keys(const std::vector<std::string>& pairs);
+
 /// "dir/name.ply" -> "dir/name.prj"
 std::string sidecar_path(const std::string& path);
 

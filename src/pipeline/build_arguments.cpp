@@ -32,6 +32,12 @@ void add_ground_options(CLI::App& command, BuildArguments& a) {
       .add_option("--memory-limit", a.memory_limit_bytes,
                   "refuse what needs more memory, as 4G or 500M, by an estimate before the work starts")
       ->transform(CLI::AsSizeValue(false))
+      ->transform(CLI::Validator(
+          [](const std::string& text) {  // CLI11 takes -1 for the largest number
+            const bool begins_right = text.find_first_of("0123456789") == 0;
+            return begins_right ? std::string() : "takes a size, as 4G or 500M, not '" + text + "'";
+          },
+          ""))
       ->type_name("SIZE")
       ->default_str("what the machine has");
 }

@@ -12,6 +12,12 @@
 
 namespace thalweg {
 
+namespace {
+
+constexpr const char* kRepair = "; repair the mesh, or build a TIN of its points (thalweg build)";
+
+}  // namespace
+
 LoadedTin load_tin(TinFile file, const std::string& path, Progress& progress) {
   CrsInfo crs = describe_crs(file.crs);
   Plane plane(crs, file.points);
@@ -20,7 +26,7 @@ LoadedTin load_tin(TinFile file, const std::string& path, Progress& progress) {
     try {
       return {std::move(points), std::move(file.heights), std::move(file.triangles), file.constraints};
     } catch (const Error& error) {
-      throw Error(error.code(), path + ": " + error.what());
+      throw Error(error.code(), path + ": " + error.what() + kRepair);
     }
   }();
   LoadedTin loaded{std::move(tin),       std::move(crs), std::move(plane), {}, std::move(file.vertex_source),
@@ -36,8 +42,8 @@ LoadedTin load_tin(const std::string& path, Progress& progress) {
 void refuse_broken(const Tin& tin, const std::string& path) {
   if (const auto violations = validate(tin); !violations.empty()) {
     throw Error(ErrorCode::InvalidTin,
-                fmt::format("{}: breaks law {}: {}; `thalweg info` lists all violations", path,
-                            violations.front().code, violations.front().what));
+                fmt::format("{}: breaks law {}: {}; `thalweg info` lists all violations{}", path,
+                            violations.front().code, violations.front().what, kRepair));
   }
 }
 

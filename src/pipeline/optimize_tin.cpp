@@ -31,7 +31,8 @@ namespace {
 
 /// The TIN file without the vertices that are in no triangle, nor at a constraint edge; the others are along
 /// a curve, so that what is close in the plane is close in memory. For each its rank in the file is returned.
-std::vector<VertexId> order_vertices(TinFile& file, Report& report, const Progress& progress) {
+std::vector<VertexId> order_vertices(TinFile& file, const std::string& path, Report& report,
+                                     Progress& progress) {
   std::vector<bool> used(file.points.size());
   for (const Triangle& t : file.triangles) {
     for (const VertexId v : t) used[v.index()] = true;
@@ -45,6 +46,8 @@ std::vector<VertexId> order_vertices(TinFile& file, Report& report, const Progre
     points.push_back(file.points[v]);
   }
   report.tin.vertices_left_out = used.size() - ids.size();
+  // One beside the surface may be left out; inside of it there must be none.
+  if (report.tin.vertices_left_out > 0) refuse_broken(load_tin(file, path, progress).tin, path);
   const std::vector<std::uint32_t> order = hilbert_order(points, progress);
   const auto sorted = [&](const auto& values) {
     std::remove_cvref_t<decltype(values)> moved;
@@ -140,7 +143,7 @@ BuiltTin optimized_tin(const OptimizeConfig& config, Progress& progress) {
 
   progress.start_phase("read");
   TinFile file = read_tin(config.input, progress);
-  std::vector<VertexId> number = order_vertices(file, report, progress);
+  std::vector<VertexId> number = order_vertices(file, config.input, report, progress);
   const CrsInfo crs = describe_crs(file.crs);
   report.notes = file.notes;
   note_assumptions(crs, file.points, report);

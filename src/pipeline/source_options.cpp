@@ -60,7 +60,7 @@ Box2 parse_box(const std::string& option, const std::string& text) {
   while (at < end) {
     double value = 0;
     const auto [rest, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || (rest != end && *rest != ',' && *rest != ' ')) break;
+    if (error != std::errc() || !std::isfinite(value) || (rest != end && *rest != ',' && *rest != ' ')) break;
     numbers.push_back(value);
     at = rest == end ? end : rest + 1;
   }

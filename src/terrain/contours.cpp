@@ -155,6 +155,10 @@ class LevelTracer {
   std::vector<std::vector<PathPoint>> paths_;
 };
 
+/// In intervals. A height is a product and a sum of numbers about as large as the base, each rounded by at
+/// most 2^-53 of it, as the interval was: below 0.0004 of the interval, where the base is no farther than this.
+constexpr double kFarthestBase = 1e12;
+
 /// The decimal number near `value` that rounding may have missed in a sum of numbers as large as `scale`:
 /// 0.3, not 3 * 0.1.
 double nearest_decimal(double value, double scale) {
@@ -173,6 +177,13 @@ double nearest_decimal(double value, double scale) {
 std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& options, Progress& progress) {
   if (!(options.interval > 0) || !std::isfinite(options.interval) || !std::isfinite(options.base)) {
     throw Error(ErrorCode::Usage, "the interval of contours has to be positive, and their base finite");
+  }
+  if (std::abs(options.base) > kFarthestBase * options.interval) {
+    throw Error(
+        ErrorCode::Usage,
+        fmt::format("the base of contours, {}, is too many intervals of {} away from 0 for exact heights; "
+                    "choose one that is near the heights",
+                    options.base, options.interval));
   }
   double low = 0, top = 0;
   bool any = false;

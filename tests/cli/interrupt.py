@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Stops runs at moments spread over their whole length, and looks at what is left on disk.
 
-After SIGINT or SIGTERM: status 130, one ERROR line, and no file, temporary or final; or the run had finished and
+After SIGINT, SIGTERM or SIGHUP: status 130, one ERROR line, and no file, temporary or final; or the run had finished and
 everything is there. After SIGKILL: a target holds what it held before, or the whole new file.
 Usage: interrupt.py BINARY [POINTS [MOMENTS]]; prints the longest time from signal to end.
 """
@@ -81,7 +81,7 @@ def main():
         if run.returncode != 0:
             print(f"the run itself fails with status {run.returncode}")
             return 1
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL):
             for i in range(moments):
                 after = loaded + whole * i / moments
                 faults, took = stop(binary, points, number, after)

@@ -30,7 +30,7 @@ void add_report_option(CLI::App& command, std::string& path);
 void add_examples(CLI::App& command, const std::string& lines);
 
 /// The progress of the running command: drawn on stderr if that is a terminal or --progress asks for it, and
-/// quiet is not set; cancelled by SIGINT and SIGTERM.
+/// quiet is not set; cancelled by SIGINT, SIGTERM and SIGHUP.
 Progress& progress_of(const Common& common);
 /// Before an error is printed: so that it begins a line of its own.
 void end_progress_line();

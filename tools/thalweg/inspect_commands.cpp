@@ -85,12 +85,12 @@ std::vector<std::string> picture_extensions() {
 }
 
 std::string formats_text() {
-  std::string text = fmt::format("{:<10}{:<18}{:<8}{}\n", "TIN", "extensions", "access", "what it is");
+  std::string text = fmt::format("{:<12}{:<18}{:<8}{}\n", "TIN", "extensions", "access", "what it is");
   for (const FormatInfo& format : tin_formats()) {
     std::string extensions;
     for (const std::string& extension : format.extensions) extensions += extension + " ";
     text +=
-        fmt::format("{:<10}{:<18}{:<8}{}\n", format.name, extensions,
+        fmt::format("{:<12}{:<18}{:<8}{}\n", format.name, extensions,
                     std::string(format.reads ? "r" : "-") + (format.writes ? "w" : "-"), format.description);
   }
   text +=

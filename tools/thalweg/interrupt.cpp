@@ -46,9 +46,11 @@ void claim_interruption() {
 void watch_signals() {
   sigset_t signals;
   sigemptyset(&signals);
-  for (const int number : {SIGINT, SIGTERM}) {
-    std::signal(number, SIG_DFL);  // a shell lets its background jobs ignore SIGINT
-    sigaddset(&signals, number);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const auto before = std::signal(number, SIG_DFL);  // a shell lets its background jobs ignore SIGINT
+    const bool outlives_terminal = number == SIGHUP && before == SIG_IGN;  // as nohup asks for
+    if (outlives_terminal) std::signal(number, SIG_IGN);
+    if (!outlives_terminal) sigaddset(&signals, number);
   }
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::thread([signals] {

@@ -21,6 +21,7 @@
 #include <memory>
 #include <new>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -63,6 +64,26 @@ class ProgressLine {
   std::string phase_;
   int tick_ = 0;
 };
+
+/// A shell's variable that is not set makes an empty word, which CLI11 takes for none, or for another word.
+/// Throws: Error{Usage}.
+void refuse_empty_words(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i], before = i > 1 ? argv[i - 1] : "";
+    if (word.starts_with("--") && word.find('=') == word.size() - 1) {
+      throw Error(ErrorCode::Usage, std::string(word.substr(0, word.size() - 1)) +
+                                        " has an empty value; give one, or leave the option out");
+    }
+    if (!word.empty()) continue;
+    if (before.size() > 1 && before.starts_with('-') && before != "--") {
+      throw Error(
+          ErrorCode::Usage,
+          std::string(before) + " is followed by an empty word; give a value, or leave the option out");
+    }
+    throw Error(ErrorCode::Usage, "an empty word stands for the name of a file or command, after '" +
+                                      std::string(i > 1 ? before : "thalweg") + "'; give the name");
+  }
+}
 
 /// GDAL's habit of long options with one dash, and its names for CRS options.
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -129,10 +150,14 @@ int run(int argc, char** argv) {
   add_view_command(app);
   add_drain_command(app);
   add_formats_command(app);
+  refuse_empty_words(argc, argv);
   try {
     app.parse(normalise(argc, argv));
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    std::ostringstream help;
+    const int status = app.exit(success, help);
+    print(help.str());
+    return status;
   } catch (const CLI::RequiredError& error) {
     // CLI11 says that one is required, too, where the word is not the name of any.
     const std::string word = argc > 1 ? argv[1] : "";

@@ -69,7 +69,7 @@ right, none twice; a plateau has its rim for a contour."""
         run(["convert", self.mesh_path(parameters, "INPUT", context), output, "--overwrite", "--progress", "--contours",
              "--interval", repr(self.parameterAsDouble(parameters, "INTERVAL", context)),
              f"--base={self.parameterAsDouble(parameters, 'BASE', context)!r}",
-             *(["--field", field] if field != "elev" else [])], feedback)  # DXF has no fields
+             *(["--field", field] if field not in ("", "elev") else [])], feedback)  # DXF has no fields
         return {"OUTPUT": output}
 
 

@@ -35,8 +35,10 @@ first-order alternatives. The mesh has to be a file that Thalweg reads: PLY, UGR
         arguments = ["optimize", self.mesh_path(parameters, "INPUT", context), output, "--overwrite", "--progress",
                      "--order", str(self.parameterAsInt(parameters, "ORDER", context)),
                      "--definition", DEFINITIONS[self.parameterAsEnum(parameters, "DEFINITION", context)],
-                     "--method", METHODS[self.parameterAsEnum(parameters, "METHOD", context)],
-                     "--optimize", self.parameterAsString(parameters, "OPTIMIZE", context)]
+                     "--method", METHODS[self.parameterAsEnum(parameters, "METHOD", context)]]
+        criteria = self.parameterAsString(parameters, "OPTIMIZE", context)
+        if criteria:
+            arguments += ["--optimize", criteria]
         results = {"OUTPUT": output}
         arguments += self.report_arguments(parameters, context, results)
         run(arguments, feedback)

@@ -42,8 +42,10 @@ With a number of points as well, the limit that is reached first stops; the repo
         if layer is None:
             raise QgsProcessingException(self.invalidSourceError(parameters, "INPUT"))
         output = self.parameterAsFileOutput(parameters, "OUTPUT", context)
-        arguments = ["build", self.source(layer, context, feedback), output, "--overwrite", "--progress",
-                     "--optimize", self.parameterAsString(parameters, "OPTIMIZE", context)]
+        arguments = ["build", self.source(layer, context, feedback), output, "--overwrite", "--progress"]
+        criteria = self.parameterAsString(parameters, "OPTIMIZE", context)
+        if criteria:
+            arguments += ["--optimize", criteria]
         limits = []
         if parameters.get("MAX_ERROR") is not None:
             limits += ["--max-error", repr(self.parameterAsDouble(parameters, "MAX_ERROR", context))]
