@@ -20,8 +20,8 @@ enum class LayerUse {
 /// A dataset, and what opening it told about its CRS.
 struct OpenedDataset {
   GDALDatasetUniquePtr dataset;
-  std::string
-      crs_errors;  ///< " (GDAL's words)" about one that could not be resolved; empty if there are none
+  /// " (GDAL's words)" about one that could not be resolved; empty if there are none.
+  std::string crs_errors;
   bool has_default_crs = false;  ///< the driver takes a CRS where a file's own cannot be resolved
 };
 
