@@ -54,7 +54,8 @@ ConditionConfig parse_condition(const CLI::App& command, const ConditionArgument
                 "--condition-norm is about monotone-valleys, which --condition does not ask for");
   }
   if (!arguments.outlets.empty() && !config.changes_pits()) {
-    throw Error(ErrorCode::Usage, "--outlets is about pits, which --condition does not ask to fill or breach");
+    throw Error(ErrorCode::Usage,
+                "--outlets is about pits, which --condition does not ask to fill or breach");
   }
   config.norm = arguments.norm == "sum" ? ChangeNorm::Sum : ChangeNorm::Squares;
   if (command.count("--condition-max") > 0) config.max_m = arguments.max_m;
