@@ -132,7 +132,11 @@ void check_name(const std::string& name) {
 
 void parse(CLI::App& command, const thalweg_job& job) {
   std::vector<std::string> words;  // the last one first, as CLI11 takes them
-  for (const auto& [name, value] : job.options) words.push_back("--" + name + "=" + value);
+  for (const auto& [name, value] : job.options) {
+    // CLI11 would take the next word for it.
+    if (value.empty()) throw Error(ErrorCode::Usage, "the option " + name + " has an empty value");
+    words.push_back("--" + name + "=" + value);
+  }
   std::reverse(words.begin(), words.end());
   try {
     command.parse(words);
