@@ -150,10 +150,10 @@ class SurveyReading {
 
  private:
   Frame frame_of(const SourceReader& reader, const OGRSpatialReference& given) const {
-    if (given.IsEmpty() && reader.unresolved_crs()) {
+    if (given.IsEmpty() && run_.options.assigned_crs.empty() && reader.unresolved_crs()) {
       throw Error(ErrorCode::BadCrs,
                   reader.name() + " declares a CRS that cannot be resolved" + *reader.unresolved_crs() +
-                      "; say with --s-crs what it is in, or mend the file (ogr2ogr -a_srs)");
+                      "; say with --s-crs (or --a-crs) what it is in, or mend the file (ogr2ogr -a_srs)");
     }
     Frame frame;
     frame.reference = given.IsEmpty() ? reader.reference() : given;
