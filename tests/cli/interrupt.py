@@ -29,7 +29,8 @@ def write_points(path, count):
 def start(binary, points, folder):
     return subprocess.Popen(
         [binary, "build", points, "t.gpkg", "--report", "r.json", "--picture", "p.png", "--overwrite", "-q"],
-        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))  # what runs the tests may ignore it
 
 
 def stop(binary, points, number, after):
