@@ -172,9 +172,8 @@ double nearest_decimal(double value, double scale) {
   return std::abs(decimal - value) <= kRounding * scale ? decimal : value;
 }
 
-}  // namespace
-
-std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& options, Progress& progress) {
+/// The heights of the contours, ascending. Throws: Error{Usage}.
+std::vector<double> list_heights(const Tin& tin, const ContourOptions& options) {
   if (!(options.interval > 0) || !std::isfinite(options.interval) || !std::isfinite(options.base)) {
     throw Error(ErrorCode::Usage, "the interval of contours has to be positive, and their base finite");
   }
@@ -212,6 +211,13 @@ std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& op
     const bool is_new = heights.empty() || height > heights.back();
     if (is_new && height >= low && height <= top) heights.push_back(height);
   }
+  return heights;
+}
+
+}  // namespace
+
+std::vector<ContourLine> trace_contours(const Tin& tin, const ContourOptions& options, Progress& progress) {
+  const std::vector<double> heights = list_heights(tin, options);
   const std::size_t levels = heights.size();
 
   // Buckets: the rising halfedges of each height.
