@@ -14,6 +14,7 @@
 #include <mesh/line_vertices.hpp>
 #include <mesh/straight_piece.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,10 +27,10 @@ double squared_distance(Point2 p, Point2 q) {
 }
 
 // The lines' vertices to come: `consider(segment, along, i, found)` is asked of each candidate i that is
-// beside a segment, not at its ends, and within the margin of its box.
+// beside a segment and within the margin of its box, but not within a pixel of an end: these become one.
 template <class Consider>
 std::vector<LineVertex> find_vertices(std::span<const LineSegment> segments,
-                                      std::span<const Point2> candidates, double margin,
+                                      std::span<const Point2> candidates, double margin, double pixel,
                                       const Progress& progress, const Consider& consider) {
   constexpr std::size_t kBlock = 1 << 12;
   std::vector<Segment> ends;
@@ -41,7 +42,9 @@ std::vector<LineVertex> find_vertices(std::span<const LineSegment> segments,
     for (std::size_t i = begin; i < end; ++i) {
       const Point2 p = candidates[i];
       tree.visit(box_around(p, margin), [&](std::uint32_t s) {
-        if (p == segments[s].low || p == segments[s].high) return;
+        const double to_low = squared_distance(segments[s].low, p);
+        const double to_high = squared_distance(segments[s].high, p);
+        if (std::min(to_low, to_high) <= pixel * pixel) return;
         const double along = part_along(segments[s], p);
         if (along > 0 && along < 1) consider(s, along, i, found[begin / kBlock]);
       });
@@ -94,7 +97,7 @@ std::size_t split_lines_at_points(Survey& survey, double x_period, Progress& pro
     if (squared_distance(foot, candidates[i]) <= pixel * pixel)
       found.push_back({s, along, candidates[i], {}});
   };
-  std::vector<LineVertex> vertices = find_vertices(segments, candidates, pixel, progress, consider);
+  std::vector<LineVertex> vertices = find_vertices(segments, candidates, pixel, pixel, progress, consider);
   const std::size_t count = insert_line_vertices(survey, {}, segments, std::move(vertices));
   progress.advance(1);
   return count;
@@ -102,7 +105,7 @@ std::size_t split_lines_at_points(Survey& survey, double x_period, Progress& pro
 
 std::size_t split_lines_beside_points(Survey& survey, WrittenSurvey written,
                                       const std::function<Point2(Point2)>& to_plane,
-                                      const DensifyOptions& options, Progress& progress) {
+                                      const DensifyOptions& options, double resolution, Progress& progress) {
   progress.start_phase("finding points beside lines");
   constexpr int kRounds = 8;  // a foot can leave another point on the wrong side where a line bends both ways
   std::size_t count = 0;
@@ -111,7 +114,7 @@ std::size_t split_lines_beside_points(Survey& survey, WrittenSurvey written,
     const std::vector<Point2> candidates = positions_of(survey);
     std::vector<Point2> sources(written.points.begin(), written.points.end());
     for (const auto& line : written.lines) sources.insert(sources.end(), line.begin(), line.end());
-    const double pixel = snapping_pixel(candidates, 0), reach = options.limit + pixel;
+    const double pixel = snapping_pixel(candidates, resolution), reach = options.limit + pixel;
     const auto consider = [&](std::uint32_t s, double along, std::size_t i, std::vector<LineVertex>& found) {
       const auto& [line, vertex, a, b, reversed] = segments[s];
       const Point2 p = candidates[i], beside = {std::lerp(a.x, b.x, along), std::lerp(a.y, b.y, along)};
@@ -126,7 +129,7 @@ std::size_t split_lines_beside_points(Survey& survey, WrittenSurvey written,
         found.push_back(foot);
       }
     };
-    std::vector<LineVertex> vertices = find_vertices(segments, candidates, reach, progress, consider);
+    std::vector<LineVertex> vertices = find_vertices(segments, candidates, reach, pixel, progress, consider);
     if (vertices.empty()) break;
     count += insert_line_vertices(survey, written.lines, segments, std::move(vertices));
   }

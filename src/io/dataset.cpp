@@ -83,7 +83,8 @@ OpenedDataset open_dataset(const std::string& path, LayerUse use) {
     const bool about_crs = errors.find("proj_create") != std::string::npos;
     // GeoJSON and its kin: WGS 84.
     const bool json = std::string_view(dataset->GetDriverName()).find("JSON") != std::string_view::npos;
-    return {std::move(dataset), about_crs ? errors : "", json};
+    const bool vrt = std::string_view(dataset->GetDriverName()) == "VRT";
+    return {std::move(dataset), about_crs ? errors : "", json, vrt};
   }
   VSIStatBufL stat;
   const bool names_a_file = path.find(':') == std::string::npos || path.front() == '/';
@@ -98,7 +99,8 @@ OpenedDataset open_dataset(const std::string& path, LayerUse use) {
 }
 
 bool lacks_declared_crs(const OpenedDataset& opened, const OGRSpatialReference* given) {
-  if (given != nullptr && given->IsEmpty()) return true;
+  // A VRT may say that it has none by an empty element.
+  if (given != nullptr && given->IsEmpty()) return !opened.crs_errors.empty() || !opened.is_vrt;
   return !opened.crs_errors.empty() && (given == nullptr || opened.has_default_crs);
 }
 

@@ -23,6 +23,7 @@ struct OpenedDataset {
   /// " (GDAL's words)" about one that could not be resolved; empty if there are none.
   std::string crs_errors;
   bool has_default_crs = false;  ///< the driver takes a CRS where a file's own cannot be resolved
+  bool is_vrt = false;
 };
 
 /// Opens a file, virtual path or connection for reading, as layers, or, for points, as a raster too.

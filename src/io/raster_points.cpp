@@ -10,6 +10,7 @@
 #include "io/height_unit.hpp"
 #include "io/nodata_grid.hpp"
 #include "io/point_collector.hpp"
+#include "io/spatial_reference.hpp"
 
 #include <thalweg/base/error.hpp>
 
@@ -46,7 +47,7 @@ class RasterPoints : public SourceReader {
     const OGRSpatialReference* const reference = dataset_->GetSpatialRef();
     if (lacks_declared_crs(opened, reference)) {
       set_unresolved_crs(opened.crs_errors);
-    } else if (reference != nullptr) {
+    } else if (reference != nullptr && !means_none(*reference)) {
       set_reference(*reference);
     }
     if (const std::optional<double> unit = metres_of_unit(band_->GetUnitType())) set_vertical_unit(*unit);

@@ -137,8 +137,8 @@ class SurveyReading {
       settle(run_.las_filter, "(--classes, --returns)", ErrorCode::Usage, "the filter of LAS points");
     if (run_.options.coords)
       settle(run_.coords, "--coords", ErrorCode::Usage, "the form of positions in text,");
-    if (run_.options.nodata != NodataMode::BridgeHoles)
-      settle(run_.nodata, "--nodata", ErrorCode::Usage, "the bridging of cells without data,");
+    if (run_.options.nodata != NodataMode::BridgeHoles && !run_.nodata.taken)
+      throw Error(ErrorCode::Usage, "--nodata is about rasters, and no source is one; leave it out");
     settle(run_.kind_field, run_.options.kind_field, ErrorCode::Usage, "the field with kinds of lines,");
     check_not_empty();
     check_degrees();

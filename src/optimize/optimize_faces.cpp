@@ -444,8 +444,9 @@ void require_face_criteria(const std::vector<Objective>& criteria) {
       const Declaration& declaration = declaration_of(part.criterion);
       if (declaration.vertex == nullptr && part.criterion != Criterion::PitDepth) continue;
       throw Error(ErrorCode::Unsupported, "criterion " + std::string(declaration.traits.name) +
-                                              " cannot be optimised at orders above 1, nor under sees-3vtx "
-                                              "and empty-quad; take --order 1 and --definition sees-opp");
+                                              " cannot be optimised at orders above 1, under sees-3vtx and "
+                                              "empty-quad, nor with --method flip and hull; take --order 1, "
+                                              "--definition sees-opp and --method exact");
     }
   }
 }

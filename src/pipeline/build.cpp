@@ -1,8 +1,9 @@
 // The main job.
 //
 // 1. Reserve the outputs, read the sources in one CRS; refuse what the memory cannot hold.
-// 2. A geographic survey: points exactly on a line become its vertices, pieces that bend are densified, and
-//    everything is projected to the metric plane. What is written back are the coordinates that came in.
+// 2. A geographic survey: points on a line become its vertices, pieces that bend are densified, everything is
+//    projected to the metric plane, and lines get vertices where the plane has a point on their wrong side.
+//    What is written back are the coordinates that came in.
 // 3. Node and triangulate: the ground, with ids along a curve until the outputs are written.
 // 4. Take from the surface what is outside of the data (nodata), rim triangles with long edges, and rim
 //    triangles that are flat or turned over as written. Vertices that lose all triangles are out; the ground
@@ -35,10 +36,6 @@
 namespace thalweg {
 
 namespace {
-
-/// Doubles that are longitudes are up to 3e-9 m apart; two programs that compute the same one differ by a
-/// few.
-constexpr double kGeographicResolutionM = 0x1p-20;
 
 std::vector<std::uint8_t> origin_kinds(const Ground& ground) {
   std::vector<std::uint8_t> sources(ground.origins.size());

@@ -134,6 +134,16 @@ std::vector<double> sum_areas(const SurfaceFlow& flow, std::span<const std::uint
   return area_m2;
 }
 
+void describe_outlets(const SurfaceFlow& flow, std::span<const VertexId> outlets,
+                      std::span<const double> area_m2, DrainReport& report) {
+  for (std::size_t s = 0; s < area_m2.size(); ++s) {
+    if (flow.sinks()[s].kind == Sink::Kind::Outlet && area_m2[s] > 0) ++report.rim_outlets;
+  }
+  for (std::size_t i = 0; i < outlets.size(); ++i) {
+    report.outlets[i].catchment_area_m2 = area_m2[flow.sink_of(outlets[i]).index()];
+  }
+}
+
 void write_model(const LoadedTin& loaded, const SwmmView& view, const DrainConfig& config,
                  DrainReport& report, PendingOutputs& outputs, Progress& progress) {
   const Overwrite mode = config.overwrite ? Overwrite::Yes : Overwrite::No;
@@ -230,12 +240,7 @@ DrainReport drain_tin(const DrainConfig& config, Progress& progress) {
   std::vector<std::uint32_t> end_of_sink;
   for (const SinkId end : spilling.end) end_of_sink.push_back(end.value());
   const std::vector<double> area_m2 = sum_areas(flow, end_of_sink, square);
-  for (std::size_t s = 0; s < area_m2.size(); ++s) {
-    if (flow.sinks()[s].kind == Sink::Kind::Outlet && area_m2[s] > 0) ++report.rim_outlets;
-  }
-  for (std::size_t i = 0; i < outlets.size(); ++i) {
-    report.outlets[i].catchment_area_m2 = area_m2[flow.sink_of(outlets[i]).index()];
-  }
+  describe_outlets(flow, outlets, area_m2, report);
   report.consistency = check_consistency(loaded.tin, scale);
 
   report.min_area_m2 = config.min_area_m2.value_or(kNetworkShare * report.area_m2);

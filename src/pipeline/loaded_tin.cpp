@@ -26,7 +26,8 @@ LoadedTin load_tin(TinFile file, const std::string& path, Progress& progress) {
     try {
       return {std::move(points), std::move(file.heights), std::move(file.triangles), file.constraints};
     } catch (const Error& error) {
-      throw Error(error.code(), path + ": " + error.what() + kRepair);
+      throw Error(error.code(),
+                  path + ": " + error.what() + (error.code() == ErrorCode::InvalidTin ? kRepair : ""));
     }
   }();
   LoadedTin loaded{std::move(tin),       std::move(crs), std::move(plane), {}, std::move(file.vertex_source),

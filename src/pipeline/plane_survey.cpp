@@ -32,7 +32,8 @@ PlaneSurvey to_plane(Survey survey, const Plane& plane, Progress& progress) {
   }
   if (!lines.empty()) {
     const WrittenSurvey written = {result.written_points, result.written_lines};
-    inserted += split_lines_beside_points(result.survey, written, project, options, progress);
+    inserted +=
+        split_lines_beside_points(result.survey, written, project, options, kGeographicResolutionM, progress);
   }
   result.vertices_inserted_on_lines = inserted;
   return result;

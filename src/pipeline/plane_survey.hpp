@@ -13,6 +13,10 @@
 
 namespace thalweg {
 
+/// Doubles that are longitudes are up to 3e-9 m apart; two programs that compute the same one differ by a
+/// few.
+constexpr double kGeographicResolutionM = 0x1p-20;
+
 /// A survey in the plane, and the coordinates that it was given in.
 struct PlaneSurvey {
   Survey survey;

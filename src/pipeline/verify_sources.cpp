@@ -21,8 +21,12 @@ void append_piece(verify::SourceLine& line, const SurveyLine& source, std::size_
   if (period > 0) b.x -= period * std::round((b.x - a.x) / period);
   const auto between = [&](double t) { return Point2{a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t}; };
   const Point2 first = plane.to_plane(a), last = plane.to_plane(source.xy[i + 1]);
-  const Point2 middle = plane.to_plane(between(0.5));
-  const double bend = std::hypot(middle.x - (first.x + last.x) / 2, middle.y - (first.y + last.y) / 2);
+  double bend = 0;
+  for (const double t : {0.25, 0.5, 0.75}) {  // a piece that bends both ways may not bend in the middle
+    const Point2 p = plane.to_plane(between(t));
+    bend =
+        std::max(bend, std::hypot(p.x - std::lerp(first.x, last.x, t), p.y - std::lerp(first.y, last.y, t)));
+  }
   constexpr double kMost = 100'000;
   const double count = std::clamp(std::ceil(std::sqrt(bend / kBendM)), 1.0, kMost);
   for (double k = 0; k < count; ++k) {

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace thalweg {
@@ -298,6 +299,30 @@ ConditionResult condition_along(const Tin& tin, std::span<const VertexId> outlet
   return result;
 }
 
+/// Within the limit. The directions that lines of rings, the arcs from `first_arcs` on, get from changes without
+/// it may ask for changes that are given back, and those of other lines with them; so it is tried without
+/// them too. What leaves fewer rising edges wins, then what changes less.
+ConditionResult condition_within(const Tin& tin, std::span<const VertexId> outlets,
+                                 const ConditionOptions& options, std::span<const DownArc> arcs,
+                                 std::size_t first_arcs, const Progress& progress) {
+  ConditionResult with = condition_along(tin, outlets, options, arcs, progress);
+  if (arcs.size() == first_arcs) return with;
+  ConditionResult without = condition_along(tin, outlets, options, arcs.first(first_arcs), progress);
+  const auto cost = [&](const ConditionResult& result) {
+    const std::vector<double>& z = result.heights;
+    const auto rises = [&](const DownArc& arc) { return z[arc.above] < z[arc.below]; };
+    std::size_t rising = 0;  // as lines run then
+    list_arcs(tin.with_heights(z), [&](const DownArc& arc) {
+      rising += rises(arc) ? 1 : 0;
+      return false;
+    });
+    const auto first = arcs.first(first_arcs);
+    return std::tuple(std::count_if(first.begin(), first.end(), rises), rising,
+                      sum_of_changes(tin.heights(), z));
+  };
+  return cost(without) < cost(with) ? std::move(without) : std::move(with);
+}
+
 }  // namespace
 
 ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outlets,
@@ -306,6 +331,7 @@ ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outl
     return condition_along(tin, outlets, options, {}, progress);
   }
   std::vector<DownArc> arcs = list_arcs(tin, [](const DownArc&) { return true; });
+  const std::size_t first_arcs = arcs.size();
   ConditionOptions unlimited = options;
   unlimited.max_change.reset();
   for (;;) {
@@ -315,9 +341,8 @@ ConditionResult condition_heights(const Tin& tin, std::span<const VertexId> outl
     const std::vector<DownArc> more = list_arcs(
         tin.with_heights(result.heights),
         [&heights = result.heights](const DownArc& arc) { return heights[arc.above] < heights[arc.below]; });
-    if (more.empty()) {
-      return options.max_change ? condition_along(tin, outlets, options, arcs, progress) : std::move(result);
-    }
+    if (more.empty() && !options.max_change) return result;
+    if (more.empty()) return condition_within(tin, outlets, options, arcs, first_arcs, progress);
     arcs.insert(arcs.end(), more.begin(), more.end());
   }
 }

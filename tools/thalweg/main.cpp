@@ -76,9 +76,9 @@ void refuse_empty_words(int argc, char** argv) {
     }
     if (!word.empty()) continue;
     if (before.size() > 1 && before.starts_with('-') && before != "--") {
-      throw Error(
-          ErrorCode::Usage,
-          std::string(before) + " is followed by an empty word; give a value, or leave the option out");
+      throw Error(ErrorCode::Usage,
+                  std::string(before) +
+                      " is followed by an empty word; give a value or a name, or leave the empty word out");
     }
     throw Error(ErrorCode::Usage, "an empty word stands for the name of a file or command, after '" +
                                       std::string(i > 1 ? before : "thalweg") + "'; give the name");

@@ -51,6 +51,15 @@ TEST(SplitLines, UlpsBesideALineAreOnItInOrderAlongIt) {
   EXPECT_EQ(survey.lines[0].z, (std::vector<double>{8, 6, 4, 2, 0}));
 }
 
+TEST(SplitLines, UlpsBesideAVertexOfTheLineIsThatVertex) {
+  Progress progress;
+  Survey survey;
+  survey.points.xy = {{std::nextafter(64.0, 0.0), 4}, {std::nextafter(64.0, 65.0), std::nextafter(4.0, 0.0)}};
+  survey.points.z.assign(survey.points.xy.size(), 5);
+  survey.lines = {line_of({{0, 4}, {64, 4}, {32, 0}}, {0, 5, 8})};
+  EXPECT_EQ(split_lines_at_points(survey, 0, progress), 0U);
+}
+
 TEST(SplitLines, ASegmentOverTheJumpDoesNotGoAroundTheWorld) {
   Progress progress;
   Survey survey;
@@ -75,7 +84,7 @@ class SplitLinesBeside : public testing::Test {
       survey_.lines.push_back(std::move(line));
     }
     Progress progress;
-    return split_lines_beside_points(survey_, {written_points_, written_lines_}, to_plane, {.limit = 0.1},
+    return split_lines_beside_points(survey_, {written_points_, written_lines_}, to_plane, {.limit = 0.1}, 0,
                                      progress);
   }
   Survey survey_;
