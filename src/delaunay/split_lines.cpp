@@ -70,6 +70,22 @@ int written_side(const StraightPiece& piece, Point2 p, double x_period) {
   return orientation(piece.low(), piece.high(), p);
 }
 
+// A vertex at position `i` (of all, points first). On a hard line it has the height of the point itself, if that
+// differs from the line's by no more than rounding and a pixel explain.
+LineVertex vertex_at(const Survey& survey, std::span<const LineSegment> segments, std::uint32_t s,
+                     double along, Point2 p, std::size_t i, double pixel) {
+  const LineSegment& segment = segments[s];
+  const bool of_point = i < survey.points.xy.size();
+  LineVertex vertex{s, along, p, {}, of_point, height_on(survey, segment, along)};
+  if (!of_point || survey.lines[segment.line].z.empty()) return vertex;
+  constexpr double kRounding = 0x1p-49;
+  const double rise = std::abs(height_on(survey, segment, 1) - height_on(survey, segment, 0));
+  const double slope = rise / std::sqrt(squared_distance(segment.low, segment.high));
+  const double own = survey.points.z[i], size = std::max(std::abs(own), std::abs(vertex.z));
+  if (std::abs(own - vertex.z) <= slope * pixel + kRounding * size) vertex.z = own;
+  return vertex;
+}
+
 // The place on the curve that is beside p, by steps that each take off most of what is missing.
 LineVertex foot_of(const LineSegment& segment, const StraightPiece& piece, Point2 p,
                    const std::function<Point2(Point2)>& to_plane) {
@@ -77,7 +93,7 @@ LineVertex foot_of(const LineSegment& segment, const StraightPiece& piece, Point
   double along = beside;
   LineVertex foot;
   for (int step = 0; step < 3; ++step) {
-    foot = {0, along, to_plane(piece.at(along)), piece.at(along)};
+    foot = {0, along, to_plane(piece.at(along)), piece.at(along), false, 0};
     along += beside - part_along(segment, foot.xy);
   }
   return foot;
@@ -94,11 +110,11 @@ std::size_t split_lines_at_points(Survey& survey, double x_period, Progress& pro
     const auto& [line, vertex, a, b, reversed] = segments[s];
     if (x_period > 0 && b.x - a.x > x_period / 2) return;
     const Point2 foot = {std::lerp(a.x, b.x, along), std::lerp(a.y, b.y, along)};
-    if (squared_distance(foot, candidates[i]) <= pixel * pixel)
-      found.push_back({s, along, candidates[i], {}});
+    if (squared_distance(foot, candidates[i]) > pixel * pixel) return;
+    found.push_back(vertex_at(survey, segments, s, along, candidates[i], i, pixel));
   };
   std::vector<LineVertex> vertices = find_vertices(segments, candidates, pixel, pixel, progress, consider);
-  const std::size_t count = insert_line_vertices(survey, {}, segments, std::move(vertices));
+  const std::size_t count = insert_line_vertices(survey, {}, segments, std::move(vertices), pixel);
   progress.advance(1);
   return count;
 }
@@ -124,14 +140,16 @@ std::size_t split_lines_beside_points(Survey& survey, WrittenSurvey written,
       foot.segment = s;
       if (!(foot.along > 0 && foot.along < 1)) return;
       if (squared_distance(foot.xy, p) <= pixel * pixel) {
-        found.push_back({s, foot.along, p, sources[i]});
+        found.push_back(vertex_at(survey, segments, s, foot.along, p, i, pixel));
+        found.back().written = sources[i];
       } else if (orientation(a, b, p) * written_side(piece, sources[i], options.x_period) < 0) {
+        foot.z = height_on(survey, segments[s], foot.along);
         found.push_back(foot);
       }
     };
     std::vector<LineVertex> vertices = find_vertices(segments, candidates, reach, pixel, progress, consider);
     if (vertices.empty()) break;
-    count += insert_line_vertices(survey, written.lines, segments, std::move(vertices));
+    count += insert_line_vertices(survey, written.lines, segments, std::move(vertices), pixel);
   }
   progress.advance(1);
   return count;

@@ -96,10 +96,14 @@ std::size_t densify_lines(Survey& survey, const std::function<Point2(Point2)>& t
     }
     for (std::size_t k = 1; k < parts; ++k) {
       const double along = static_cast<double>(k) / static_cast<double>(parts);
-      vertices.push_back({static_cast<std::uint32_t>(s), along, piece.at(along), {}});
+      LineVertex& vertex = vertices.emplace_back();
+      vertex.segment = static_cast<std::uint32_t>(s);
+      vertex.along = along;
+      vertex.xy = piece.at(along);
+      vertex.z = height_on(survey, segment, along);
     }
   }
-  return insert_line_vertices(survey, {}, segments, std::move(vertices));
+  return insert_line_vertices(survey, {}, segments, std::move(vertices), 0);
 }
 
 }  // namespace thalweg

@@ -5,6 +5,7 @@
 #include "straight_piece.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace thalweg {
@@ -22,9 +23,9 @@ class LineBuilder {
       if (written_ != nullptr) new_written_.push_back((*written_)[next_]);
     }
   }
-  void add(const LineVertex& vertex, double z) {
+  void add(const LineVertex& vertex) {
     xy_.push_back(vertex.xy);
-    if (!line_.z.empty()) z_.push_back(z);
+    if (!line_.z.empty()) z_.push_back(vertex.z);
     if (written_ != nullptr) new_written_.push_back(vertex.written);
   }
   /// Ends the use of the builder.
@@ -43,11 +44,21 @@ class LineBuilder {
   std::vector<double> z_;
 };
 
-double height_on(const SurveyLine& line, const LineSegment& segment, double along) {
-  if (line.z.empty()) return 0;
-  const std::size_t low = segment.vertex + (segment.reversed ? 1U : 0U);
-  const std::size_t high = segment.vertex + (segment.reversed ? 0U : 1U);
-  return height_between(line.z[low], line.z[high], along);
+std::vector<LineVertex> one_a_place(std::vector<LineVertex> vertices, double apart) {
+  std::sort(vertices.begin(), vertices.end());
+  std::vector<LineVertex> kept;
+  for (const LineVertex& vertex : vertices) {
+    const bool beside = !kept.empty() && kept.back().segment == vertex.segment;
+    const LineVertex last = beside ? kept.back() : LineVertex();
+    const bool near = beside && std::hypot(last.xy.x - vertex.xy.x, last.xy.y - vertex.xy.y) <= apart;
+    const bool two_points = last.of_point && vertex.of_point && last.xy != vertex.xy;
+    if (!near || two_points) {
+      kept.push_back(vertex);
+    } else if (!last.of_point) {
+      kept.back() = vertex.of_point ? vertex : last;
+    }
+  }
+  return kept;
 }
 
 }  // namespace
@@ -71,10 +82,18 @@ std::vector<LineSegment> line_segments(const Survey& survey) {
   return segments;
 }
 
+double height_on(const Survey& survey, const LineSegment& segment, double along) {
+  const std::vector<double>& z = survey.lines[segment.line].z;
+  if (z.empty()) return 0;
+  const std::size_t low = segment.vertex + (segment.reversed ? 1U : 0U);
+  const std::size_t high = segment.vertex + (segment.reversed ? 0U : 1U);
+  return height_between(z[low], z[high], along);
+}
+
 std::size_t insert_line_vertices(Survey& survey, std::span<std::vector<Point2>> written_lines,
-                                 std::span<const LineSegment> segments, std::vector<LineVertex> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+                                 std::span<const LineSegment> segments, std::vector<LineVertex> vertices,
+                                 double apart) {
+  vertices = one_a_place(std::move(vertices), apart);
   for (std::size_t i = 0; i < vertices.size();) {
     const std::uint32_t l = segments[vertices[i].segment].line;
     SurveyLine& line = survey.lines[l];
@@ -87,7 +106,7 @@ std::size_t insert_line_vertices(Survey& survey, std::span<std::vector<Point2>> 
       builder.add_old_to(segment.vertex + 1);
       for (std::size_t k = 0; k < end - i; ++k) {
         const LineVertex& vertex = vertices[segment.reversed ? end - 1 - k : i + k];
-        builder.add(vertex, height_on(line, segment, vertex.along));
+        builder.add(vertex);
       }
       i = end;
     }

@@ -30,14 +30,21 @@ struct LineVertex {
   std::uint32_t segment = 0;
   double along = 0;  ///< the part of the way from `low`
   Point2 xy;
-  Point2 written;  ///< its source's coordinates, where they are not xy
+  Point2 written;         ///< its source's coordinates, where they are not xy
+  bool of_point = false;  ///< a point of the survey lies there
+  double z = 0;           ///< of a hard line
   auto operator<=>(const LineVertex&) const = default;
 };
 
-/// Inserts the vertices, each once, into lines and, unless that is empty, into their source's coordinates; a
-/// hard line gives them its height there. Returns how many. Pre: `segments` are those of the survey.
+/// What the segment's line says of the height there; 0 if it is not hard.
+double height_on(const Survey& survey, const LineSegment& segment, double along);
+
+/// Inserts the vertices into lines and, unless that is empty, into their source's coordinates. On a segment a
+/// place counts once, and what is of no point not at all where another is no more than `apart` from it. Returns
+/// how many. Pre: `segments` are those of the survey.
 std::size_t insert_line_vertices(Survey& survey, std::span<std::vector<Point2>> written_lines,
-                                 std::span<const LineSegment> segments, std::vector<LineVertex> vertices);
+                                 std::span<const LineSegment> segments, std::vector<LineVertex> vertices,
+                                 double apart);
 
 /// The part of the way from `low` to `high` at which p is beside the segment.
 inline double part_along(const LineSegment& segment, Point2 p) {

@@ -51,6 +51,16 @@ TEST(SplitLines, UlpsBesideALineAreOnItInOrderAlongIt) {
   EXPECT_EQ(survey.lines[0].z, (std::vector<double>{8, 6, 4, 2, 0}));
 }
 
+TEST(SplitLines, APointThatAgreesKeepsItsHeight) {
+  Progress progress;
+  Survey survey;
+  survey.points.xy = {{0.1, 0}, {0.3, 0}};
+  survey.points.z = {0.7, 5};
+  survey.lines = {line_of({{0, 0}, {1, 0}}, {0, 7}), line_of({{std::nextafter(0.1, 0), 0}, {0.1, 3}})};
+  EXPECT_EQ(split_lines_at_points(survey, 0, progress), 2U);
+  EXPECT_EQ(survey.lines[0].z, (std::vector<double>{0, 0.7, 0.3 * 7, 7}));
+}
+
 TEST(SplitLines, UlpsBesideAVertexOfTheLineIsThatVertex) {
   Progress progress;
   Survey survey;
