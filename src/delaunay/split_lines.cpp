@@ -77,7 +77,7 @@ LineVertex vertex_at(const Survey& survey, std::span<const LineSegment> segments
   const LineSegment& segment = segments[s];
   const bool of_point = i < survey.points.xy.size();
   LineVertex vertex{s, along, p, {}, of_point, height_on(survey, segment, along)};
-  if (!of_point || survey.lines[segment.line].z.empty()) return vertex;
+  if (i >= survey.points.z.size() || survey.lines[segment.line].z.empty()) return vertex;
   constexpr double kRounding = 0x1p-49;
   const double rise = std::abs(height_on(survey, segment, 1) - height_on(survey, segment, 0));
   const double slope = rise / std::sqrt(squared_distance(segment.low, segment.high));
