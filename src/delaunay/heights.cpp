@@ -35,9 +35,6 @@ namespace {
 
 constexpr std::size_t kBlock = 1 << 14;  // vertices; a multiple of the bits that a word of flags holds
 
-// Interpolation rounds a handful of times, each time by at most half a unit in the last place.
-constexpr double kRounding = 0x1p-49;
-
 // What a hard line says about a vertex.
 struct Claim {
   double z = 0;
@@ -295,9 +292,7 @@ class Resolver {
     const MergedVertices& vertices = drawing_.vertices;
     const Point2 a = vertices.xy[vertices.of_line(passage.line, passage.at)];
     const Point2 b = vertices.xy[vertices.of_line(passage.line, passage.at + 1)];
-    const double slope = std::abs(z_b - z_a) / std::hypot(b.x - a.x, b.y - a.y);
-    const double rounding = z_a == z_b ? 0 : kRounding * std::max(std::abs(z_a), std::abs(z_b));
-    const double slack = slope * drawing_.noding.pixel + rounding;
+    const double slack = height_slack(a, z_a, b, z_b, drawing_.noding.pixel);
     return {interpolate_on_segment(a, z_a, b, z_b, vertices.xy[v]), slack, passage};
   }
 
@@ -339,6 +334,14 @@ class Resolver {
 };
 
 }  // namespace
+
+double height_slack(Point2 a, double z_a, Point2 b, double z_b, double pixel) {
+  // Interpolation rounds a handful of times, each time by at most half a unit in the last place.
+  constexpr double kRounding = 0x1p-49;
+  const double slope = std::abs(z_b - z_a) / std::hypot(b.x - a.x, b.y - a.y);
+  const double rounding = z_a == z_b ? 0 : kRounding * std::max(std::abs(z_a), std::abs(z_b));
+  return slope * pixel + rounding;
+}
 
 Heights resolve_heights(const Survey& survey, const Drawing& drawing, const GroundOptions& options,
                         Progress& progress) {

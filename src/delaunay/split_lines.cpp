@@ -5,6 +5,7 @@
 // of the two would be turned over as written. A vertex at the point's foot on the curve brings the chord
 // there.
 #include "box_tree.hpp"
+#include "heights.hpp"
 #include "noding.hpp"
 
 #include <thalweg/delaunay/split_lines.hpp>
@@ -59,9 +60,7 @@ std::vector<LineVertex> find_vertices(std::span<const LineSegment> segments,
 StraightPiece written_piece(const LineSegment& segment, std::span<const std::vector<Point2>> written,
                             double x_period) {
   const std::vector<Point2>& line = written[segment.line];
-  const Point2 low = line[segment.vertex + (segment.reversed ? 1U : 0U)];
-  const Point2 high = line[segment.vertex + (segment.reversed ? 0U : 1U)];
-  return {low, high, x_period};
+  return {line[segment.low_vertex()], line[segment.high_vertex()], x_period};
 }
 
 // The side of p, in the turn in which the piece is.
@@ -70,19 +69,17 @@ int written_side(const StraightPiece& piece, Point2 p, double x_period) {
   return orientation(piece.low(), piece.high(), p);
 }
 
-// A vertex at position `i` (of all, points first). On a hard line it has the height of the point itself, if that
-// differs from the line's by no more than rounding and a pixel explain.
+// A vertex at position `i` (of all, points first). On a hard line it has the height of the point itself, if
+// the two agree.
 LineVertex vertex_at(const Survey& survey, std::span<const LineSegment> segments, std::uint32_t s,
                      double along, Point2 p, std::size_t i, double pixel) {
   const LineSegment& segment = segments[s];
   const bool of_point = i < survey.points.xy.size();
   LineVertex vertex{s, along, p, {}, of_point, height_on(survey, segment, along)};
   if (i >= survey.points.z.size() || survey.lines[segment.line].z.empty()) return vertex;
-  constexpr double kRounding = 0x1p-49;
-  const double rise = std::abs(height_on(survey, segment, 1) - height_on(survey, segment, 0));
-  const double slope = rise / std::sqrt(squared_distance(segment.low, segment.high));
-  const double own = survey.points.z[i], size = std::max(std::abs(own), std::abs(vertex.z));
-  if (std::abs(own - vertex.z) <= slope * pixel + kRounding * size) vertex.z = own;
+  const double slack = height_slack(segment.low, height_on(survey, segment, 0), segment.high,
+                                    height_on(survey, segment, 1), pixel);
+  if (std::abs(survey.points.z[i] - vertex.z) <= slack) vertex.z = survey.points.z[i];
   return vertex;
 }
 

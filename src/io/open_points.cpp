@@ -36,7 +36,7 @@ bool is_tin(GDALDataset& dataset) {
 void refuse_other_layer(const SourceSpec& spec) {
   if (spec.layer.empty()) return;
   std::filesystem::path path(spec.path);
-  if (lower(path.extension().string()) == ".gz") path = path.stem();
+  if (extension_of(spec.path) == ".gz") path = path.stem();
   if (spec.layer == path.stem()) return;
   throw Error(ErrorCode::NotFound,
               spec.path + " has no layer " + spec.layer + "; it has one, and needs no |layername=");

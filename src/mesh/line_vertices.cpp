@@ -54,8 +54,8 @@ std::vector<LineVertex> one_a_place(std::vector<LineVertex> vertices, double apa
     const bool two_points = last.of_point && vertex.of_point && last.xy != vertex.xy;
     if (!near || two_points) {
       kept.push_back(vertex);
-    } else if (!last.of_point) {
-      kept.back() = vertex.of_point ? vertex : last;
+    } else if (vertex.of_point && !last.of_point) {
+      kept.back() = vertex;
     }
   }
   return kept;
@@ -85,9 +85,7 @@ std::vector<LineSegment> line_segments(const Survey& survey) {
 double height_on(const Survey& survey, const LineSegment& segment, double along) {
   const std::vector<double>& z = survey.lines[segment.line].z;
   if (z.empty()) return 0;
-  const std::size_t low = segment.vertex + (segment.reversed ? 1U : 0U);
-  const std::size_t high = segment.vertex + (segment.reversed ? 0U : 1U);
-  return height_between(z[low], z[high], along);
+  return height_between(z[segment.low_vertex()], z[segment.high_vertex()], along);
 }
 
 std::size_t insert_line_vertices(Survey& survey, std::span<std::vector<Point2>> written_lines,

@@ -5,6 +5,7 @@
 #include <thalweg/geometry/point.hpp>
 #include <thalweg/mesh/survey.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,8 @@ struct LineSegment {
   std::uint32_t vertex = 0;  ///< its first in the line's direction
   Point2 low, high;
   bool reversed = false;  ///< the line goes from `high` to `low`
+  [[nodiscard]] std::size_t low_vertex() const { return vertex + (reversed ? 1U : 0U); }
+  [[nodiscard]] std::size_t high_vertex() const { return vertex + (reversed ? 0U : 1U); }
 };
 
 /// Those of all lines, in order; not those whose ends are one place.
@@ -39,9 +42,9 @@ struct LineVertex {
 /// What the segment's line says of the height there; 0 if it is not hard.
 double height_on(const Survey& survey, const LineSegment& segment, double along);
 
-/// Inserts the vertices into lines and, unless that is empty, into their source's coordinates. On a segment a
-/// place counts once, and what is of no point not at all where another is no more than `apart` from it. Returns
-/// how many. Pre: `segments` are those of the survey.
+/// Inserts the vertices into lines and, unless that is empty, into their source's coordinates; returns how
+/// many. On a segment a place counts once, and what is of no point not at all where another is no more than
+/// `apart` from it. Pre: `segments` are those of the survey.
 std::size_t insert_line_vertices(Survey& survey, std::span<std::vector<Point2>> written_lines,
                                  std::span<const LineSegment> segments, std::vector<LineVertex> vertices,
                                  double apart);

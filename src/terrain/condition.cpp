@@ -299,9 +299,9 @@ ConditionResult condition_along(const Tin& tin, std::span<const VertexId> outlet
   return result;
 }
 
-/// Within the limit. The directions that lines of rings, the arcs from `first_arcs` on, get from changes without
-/// it may ask for changes that are given back, and those of other lines with them; so it is tried without
-/// them too. What leaves fewer rising edges wins, then what changes less.
+/// Within the limit. The directions that lines of rings, the arcs from `first_arcs` on, get from changes
+/// without it may ask for changes that are given back, and those of other lines with them; so it is tried
+/// without them too. What leaves fewer rising edges wins, then what changes less.
 ConditionResult condition_within(const Tin& tin, std::span<const VertexId> outlets,
                                  const ConditionOptions& options, std::span<const DownArc> arcs,
                                  std::size_t first_arcs, const Progress& progress) {

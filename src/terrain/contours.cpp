@@ -156,7 +156,8 @@ class LevelTracer {
 };
 
 /// In intervals. A height is a product and a sum of numbers about as large as the base, each rounded by at
-/// most 2^-53 of it, as the interval was: below 0.0004 of the interval, where the base is no farther than this.
+/// most 2^-53 of it, as the interval was: below 0.0004 of the interval, where the base is no farther than
+/// this.
 constexpr double kFarthestBase = 1e12;
 
 /// The decimal number near `value` that rounding may have missed in a sum of numbers as large as `scale`:
