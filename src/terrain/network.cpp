@@ -87,7 +87,8 @@ class Accumulator {
     const FlowNode from = graph_.node_of(v), to = below_[from];
     if (step.kind != VertexStep::Kind::Cross || step.edge != side || to == kNoNode || graph_.is_vertex(to))
       return;
-    const VertexId low = graph_.channel_of(to).low;
+    const auto& [edge, low, on_rim] = graph_.channel_of(to);
+    if (on_rim) return;  // it leaves there
     const FlowPath leg = flow_.leg_from(graph_.mesh.given(v));
     if (leg.points.back().xy == graph_.mesh.point(low)) below_[from] = graph_.node_of(low);
   }
